@@ -1,0 +1,66 @@
+#include "isolod/arena.h"
+
+#include "base/status.h"
+
+#if defined(__SANITIZE_ADDRESS__)
+#define ISOLOD_POISONED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ISOLOD_POISONED 1
+#endif
+#endif
+
+#if defined(ISOLOD_POISONED)
+#include <sanitizer/asan_interface.h>
+#else
+#define ASAN_POISON_MEMORY_REGION(address, bytes) void(0)
+#define ASAN_UNPOISON_MEMORY_REGION(address, bytes) void(0)
+#endif
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+constexpr std::size_t alignment = 16;
+}
+
+Arena::Arena(void* block, std::size_t bytes) {
+  const std::size_t misfit = reinterpret_cast<std::uintptr_t>(block) % alignment;
+  const std::size_t skipped = misfit == 0 ? 0 : alignment - misfit;
+  if (block == nullptr || bytes < skipped + alignment) return;
+  block_ = static_cast<unsigned char*>(block) + skipped;
+  capacity_ = (bytes - skipped) / alignment * alignment;
+  ASAN_POISON_MEMORY_REGION(block_, capacity_);
+}
+
+Status Arena::take(std::size_t count, std::size_t size, bool at_front, void*& piece) {
+  constexpr std::size_t most = SIZE_MAX / 2;
+  if (count > most / size) return fail(Status::out_of_memory, Element::byte, most);
+  const std::size_t bytes = (count * size + alignment - 1) / alignment * alignment;
+  if (bytes > free_bytes()) return fail(Status::out_of_memory, Element::byte, used() + bytes + alignment);
+  if (at_front) {
+    piece = block_ + front_;
+    front_ += bytes;
+  } else {
+    back_ += bytes;
+    piece = block_ + (capacity_ - back_);
+  }
+  ASAN_UNPOISON_MEMORY_REGION(piece, bytes);
+  if (used() > high_water_) high_water_ = used();
+  return {};
+}
+
+void Arena::rewind_results(ArenaMark mark) {
+  ISOLOD_ASSERT(mark.front <= front_);
+  ASAN_POISON_MEMORY_REGION(block_ + mark.front, front_ - mark.front);
+  front_ = mark.front;
+}
+
+void Arena::rewind_scratch(ArenaMark mark) {
+  ISOLOD_ASSERT(mark.back <= back_);
+  ASAN_POISON_MEMORY_REGION(block_ + (capacity_ - back_), back_ - mark.back);
+  back_ = mark.back;
+}
+
+}  // namespace v1
+}  // namespace isolod

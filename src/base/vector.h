@@ -1,0 +1,39 @@
+// Points and vectors of space and plane.
+#pragma once
+
+#include "base/config.h"
+
+namespace isolod {
+inline namespace v1 {
+
+struct Vec3 {
+  double x, y, z;
+};
+
+inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator*(double s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+inline double length(Vec3 a) { return square_root(dot(a, a)); }
+inline double distance(Vec3 a, Vec3 b) { return length(a - b); }
+inline Vec3 midpoint(Vec3 a, Vec3 b) { return 0.5 * (a + b); }
+
+struct Vec2 {
+  double x, y;
+};
+
+inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+inline Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
+inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
+inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+inline double length(Vec2 a) { return square_root(dot(a, a)); }
+inline double distance(Vec2 a, Vec2 b) { return length(a - b); }
+
+inline double smaller(double a, double b) { return b < a ? b : a; }
+inline double greater(double a, double b) { return a < b ? b : a; }
+inline double absolute(double a) { return a < 0 ? -a : a; }
+
+}  // namespace v1
+}  // namespace isolod

@@ -1,0 +1,102 @@
+// The main call, whole or in slices.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "isolod/arena.h"
+#include "isolod/mesh.h"
+#include "isolod/options.h"
+#include "isolod/status.h"
+
+namespace isolod {
+inline namespace v1 {
+
+/// What repair changed, element by element. All zero for a clean input.
+struct RepairReport {
+  std::uint32_t welded_vertices = 0;
+  std::uint32_t unused_vertices = 0;
+  std::uint32_t degenerate_triangles = 0;     ///< without area: removed
+  std::uint32_t duplicate_triangles = 0;      ///< the same three vertices again: removed
+  std::uint32_t nonmanifold_edges_cut = 0;    ///< edges with more than two triangles: cut apart
+  std::uint32_t nonmanifold_vertices_cut = 0; ///< vertices whose triangles form several fans: one copy a fan
+  std::uint32_t flipped_triangles = 0;        ///< turned over to agree with their component
+  std::uint32_t one_sided_cuts = 0;           ///< edges opened in a component that has no two sides
+
+  bool changed() const;
+};
+
+/// One stage of a run, in the order in which it ran.
+struct StageReport {
+  const char* name = nullptr;
+  std::uint64_t hash = 0;        ///< of the stage's result: the first difference between two machines shows here
+  double seconds = 0;            ///< by `Hooks::clock`; 0 without one
+  std::size_t arena_bytes = 0;   ///< the most that was in use while it ran
+};
+
+/// What a run did. Filled also when it fails, as far as it came.
+struct Report {
+  static constexpr std::size_t stage_capacity = 24;
+
+  Status status;
+  StageReport stages[stage_capacity];
+  std::size_t stage_count = 0;
+  std::size_t arena_bytes = 0;  ///< the most that was in use at all
+  RepairReport repair;
+
+  std::uint32_t components = 0;
+  std::uint32_t boundary_loops = 0;
+  std::uint32_t corners = 0;
+  std::uint32_t backbones = 0;
+  std::uint32_t charts = 0;
+  std::uint32_t feature_samples = 0;  ///< corners included
+  std::uint32_t seam_samples = 0;
+  std::uint32_t surface_samples = 0;
+  std::uint64_t result_hash = 0;  ///< of the raw bits of the output
+};
+
+/// What a run may call while it works. Each may be null.
+struct Hooks {
+  void* context = nullptr;
+  /// Called between pieces of work with the stage's name and the share done of the whole, 0 to 1; false cancels.
+  bool (*progress)(void* context, const char* stage, double share) = nullptr;
+  /// Seconds from any fixed moment. Only the report uses it.
+  double (*clock)(void* context) = nullptr;
+};
+
+/// The result of a run: lies in the arena until that is used again.
+struct ResultMesh {
+  Span<const double> positions;        ///< 3 a vertex
+  Span<const std::uint32_t> triangles; ///< 3 a triangle
+};
+
+/// A remeshing that lives in an arena and can be spread over many calls. The result does not depend on how the work
+/// was sliced. `view`'s data must stay as they are until the run is done.
+class Remesher {
+ public:
+  /// Checks the options and prepares. Working memory, results included, comes from `arena`.
+  Status begin(const MeshView& view, const Options& options, const Hooks& hooks, Arena& arena);
+
+  /// Does about `work` units (a unit is roughly one triangle or sample visited once) and returns. Afterwards `done()`
+  /// tells whether the run is over. A failure is final.
+  Status advance(std::uint64_t work);
+
+  bool done() const;
+  ResultMesh result() const;  ///< once done
+  const Report& report() const;
+
+ private:
+  struct State;
+  State* state_ = nullptr;
+};
+
+/// Remeshes `view` to exactly `options.vertex_count` vertices and gives the mesh to `sink`. On any failure the sink has
+/// not been called, and the arena is back where it was. `report` may be null.
+Status remesh(const MeshView& view, const Options& options, const MeshSink& sink, Report* report, Arena& arena,
+              const Hooks& hooks = {});
+
+/// Bytes of arena that are enough for any mesh of these counts.
+std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options);
+
+}  // namespace v1
+}  // namespace isolod

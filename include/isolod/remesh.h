@@ -85,8 +85,9 @@ class Remesher {
   ResultMesh result() const;  ///< once done
   const Report& report() const;
 
+  struct State;  ///< of the library's own; lies in the arena
+
  private:
-  struct State;
   State* state_ = nullptr;
 };
 

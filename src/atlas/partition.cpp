@@ -1,0 +1,176 @@
+#include "atlas/partition.h"
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+
+constexpr double line_crossing_cost = 3;  // wished edge lengths: borders prefer to lie on lines
+constexpr double least_step = 1e-6;       // so that two faces are never at no distance
+constexpr std::uint32_t ear_rounds = 4;
+
+Vec3 face_centre(const Surface& surface, FaceId f) {
+  const Halfedges& mesh = surface.mesh;
+  return (1.0 / 3) * (surface.position(mesh.origin[halfedge(f, 0)]) + surface.position(mesh.origin[halfedge(f, 1)]) +
+                      surface.position(mesh.origin[halfedge(f, 2)]));
+}
+
+double face_mean_density(const Surface& surface, FaceId f) {
+  return (surface.density(halfedge(f, 0)) + surface.density(halfedge(f, 1)) + surface.density(halfedge(f, 2))) / 3;
+}
+
+}  // namespace
+
+Status DualDistance::begin(const Surface& surface, double line_rate, Arena& arena) {
+  surface_ = &surface;
+  line_rate_ = line_rate;
+  ISOLOD_TRY(heap_.begin(surface.mesh.face_count(), arena));
+  ISOLOD_TRY(arena.scratch(surface.mesh.face_count(), distance_));
+  ISOLOD_TRY(arena.scratch(surface.mesh.face_count(), label_));
+  clear();
+  return {};
+}
+
+void DualDistance::clear() {
+  for (double& d : distance_) d = unreached;
+}
+
+void DualDistance::clear(Span<const FaceId> faces) {
+  for (FaceId f : faces) distance_[f] = unreached;
+}
+
+double DualDistance::step_cost(HalfedgeId h) const {
+  const FaceId f = face(h), g = face(surface_->mesh.twin[h]);
+  const double density = 0.5 * (face_mean_density(*surface_, f) + face_mean_density(*surface_, g));
+  const double way = isolod::distance(face_centre(*surface_, f), face_centre(*surface_, g));
+  const double crossing = surface_->line[h] == line_none ? 0 : line_crossing_cost;
+  return least_step + way * line_rate_ * square_root(density) + crossing;
+}
+
+void DualDistance::spread(FaceId seed, std::uint32_t label, Span<const std::uint32_t> region) {
+  distance_[seed] = 0;
+  label_[seed] = label;
+  heap_.push(seed.value, 0);
+  while (!heap_.empty()) {
+    const IndexedHeap::Entry entry = heap_.pop();
+    const FaceId f{entry.element};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const HalfedgeId h = halfedge(f, k);
+      const HalfedgeId t = surface_->mesh.twin[h];
+      if (t.is_none()) continue;
+      const FaceId g = face(t);
+      if (!region.empty() && region[g] != region[seed]) continue;
+      const double d = entry.key + step_cost(h);
+      if (!(d < distance_[g])) continue;
+      distance_[g] = d;
+      label_[g] = label;
+      heap_.push(g.value, d);
+    }
+  }
+}
+
+namespace {
+
+/// Seeds by farthest point until every face lies within `radius` of one.
+Status place_seeds(std::size_t face_count, double radius, DualDistance& distances, Span<FaceId>& seeds,
+                   Arena& arena) {
+  ISOLOD_TRY(arena.scratch(face_count, seeds));
+  std::uint32_t count = 0;
+  FaceId farthest{0};
+  for (;;) {
+    seeds[count] = farthest;
+    distances.spread(farthest, count++, {});
+    farthest = FaceId{0};
+    for (FaceId f : Ids<FaceId>(face_count)) {
+      if (distances.distance(f) > distances.distance(farthest)) farthest = f;
+    }
+    if (!(distances.distance(farthest) > radius)) break;
+  }
+  seeds.count = count;
+  return {};
+}
+
+/// Moves each seed to the face of its region that is nearest to the region's centre of area.
+Status centre_seeds(const Surface& surface, const DualDistance& distances, Span<FaceId> seeds, Arena& arena) {
+  const ScratchScope scope(arena);
+  Span<Vec3> centre;
+  Span<double> area, nearest;
+  ISOLOD_TRY(arena.scratch(seeds.count, centre));
+  ISOLOD_TRY(arena.scratch(seeds.count, area));
+  ISOLOD_TRY(arena.scratch(seeds.count, nearest));
+  for (std::size_t s = 0; s < seeds.count; ++s) centre[s] = {0, 0, 0}, area[s] = 0, nearest[s] = -1;
+  for (FaceId f : Ids<FaceId>(surface.mesh.face_count())) {
+    const std::uint32_t s = distances.label(f);
+    const double a = face_area(surface, f);
+    centre[s] = centre[s] + a * face_centre(surface, f);
+    area[s] += a;
+  }
+  for (FaceId f : Ids<FaceId>(surface.mesh.face_count())) {
+    const std::uint32_t s = distances.label(f);
+    const double d = distance(face_centre(surface, f), (1 / area[s]) * centre[s]);
+    if (nearest[s] >= 0 && !(d < nearest[s])) continue;
+    nearest[s] = d;
+    seeds[s] = f;
+  }
+  return {};
+}
+
+/// A face with two sides towards one other region and one towards its own moves over: the border gets shorter.
+void smooth_borders(const Surface& surface, Span<std::uint32_t> label) {
+  for (FaceId f : Ids<FaceId>(surface.mesh.face_count())) {
+    std::uint32_t own = 0, other_count = 0, other = UINT32_MAX;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const HalfedgeId h = halfedge(f, k), t = surface.mesh.twin[h];
+      if (t.is_none()) continue;
+      const std::uint32_t l = label[face(t)];
+      if (l == label[f]) {
+        ++own;
+      } else if (surface.line[h] == line_none && (other == UINT32_MAX || l == other)) {
+        other = l;
+        ++other_count;
+      }
+    }
+    if (own == 1 && other_count == 2) label[f] = other;
+  }
+}
+
+}  // namespace
+
+Status partition(const Surface& surface, const PartitionOptions& options, Span<std::uint32_t> label,
+                 std::uint32_t& region_count, Arena& arena) {
+  const ScratchScope scope(arena);
+  const double radius = square_root(0.43 * options.samples_per_chart);
+  DualDistance distances;
+  Span<FaceId> seeds;
+  ISOLOD_TRY(distances.begin(surface, options.line_rate, arena));
+  ISOLOD_TRY(place_seeds(surface.mesh.face_count(), radius, distances, seeds, arena));
+  for (std::uint32_t round = 0; round < options.rounds; ++round) {
+    ISOLOD_TRY(centre_seeds(surface, distances, seeds, arena));
+    distances.clear();
+    for (std::uint32_t s = 0; s < seeds.count; ++s) distances.spread(seeds[s], s, {});
+  }
+  for (FaceId f : Ids<FaceId>(surface.mesh.face_count())) label[f] = distances.label(f);
+  for (std::uint32_t round = 0; round < ear_rounds; ++round) smooth_borders(surface, label);
+  region_count = static_cast<std::uint32_t>(seeds.count);
+  return {};
+}
+
+void split_region(Span<const FaceId> faces, std::uint32_t old_label, std::uint32_t new_label,
+                  Span<std::uint32_t> region, DualDistance& distances) {
+  FaceId ends[2] = {faces[0u], faces[0u]};
+  for (FaceId& end : ends) {
+    distances.clear(faces);
+    distances.spread(ends[0], old_label, region);
+    for (FaceId f : faces) {
+      if (distances.distance(f) > distances.distance(end)) end = f;
+    }
+    if (&end == &ends[0]) ends[1] = ends[0];
+  }
+  distances.clear(faces);
+  distances.spread(ends[0], old_label, region);
+  distances.spread(ends[1], new_label, region);
+  for (FaceId f : faces) region[f] = distances.label(f);
+}
+
+}  // namespace v1
+}  // namespace isolod

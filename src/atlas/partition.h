@@ -1,0 +1,58 @@
+// Cuts the surface into charts: connected regions of about equal wished sample count, compact, along lines where possible.
+//
+// Seeds are placed one after the other at the face farthest from those before, distance measured over the dual graph in
+// wished edge lengths, until no face is farther than a radius; then a few rounds of Lloyd's algorithm on regions make them
+// round (Cohen-Steiner, Alliez and Desbrun, "Variational shape approximation", 2004, has the same scheme with another
+// metric). Ears are given to the neighbour whose border they shorten. All ties go to the lower index.
+#pragma once
+
+#include "base/heap.h"
+#include "mesh/surface.h"
+
+namespace isolod {
+inline namespace v1 {
+
+/// Shortest ways over the dual graph from several seed faces at once, grown seed by seed.
+class DualDistance {
+ public:
+  /// 24 bytes a face of scratch.
+  Status begin(const Surface& surface, double line_rate, Arena& arena);
+
+  void clear();
+  void clear(Span<const FaceId> faces);
+  /// Lets `label` spread from `seed` wherever it is nearer than what came before, within the faces whose entry in
+  /// `region` equals that of the seed (an empty span: everywhere). O(faces reached * log).
+  void spread(FaceId seed, std::uint32_t label, Span<const std::uint32_t> region);
+
+  double distance(FaceId f) const { return distance_[f]; }
+  std::uint32_t label(FaceId f) const { return label_[f]; }
+  static constexpr double unreached = 1e300;
+
+ private:
+  double step_cost(HalfedgeId h) const;
+
+  const Surface* surface_ = nullptr;
+  double line_rate_ = 0;
+  IndexedHeap heap_;
+  Span<double> distance_;
+  Span<std::uint32_t> label_;
+};
+
+struct PartitionOptions {
+  double line_rate = 0;          ///< R_f
+  double samples_per_chart = 250;
+  std::uint32_t rounds = 3;      ///< of Lloyd's algorithm on the regions
+};
+
+/// Labels every face with a region below `region_count`. `label` is given, one entry a face. Every region is connected and no
+/// component is without one. O(n log n log k) time; about 40 bytes a face of scratch.
+Status partition(const Surface& surface, const PartitionOptions& options, Span<std::uint32_t> label,
+                 std::uint32_t& region_count, Arena& arena);
+
+/// Splits one region in two: `faces` are its faces, `region` holds `old_label` exactly there. About half of the faces get
+/// `new_label`. Both parts are connected if the region was. `distances` is used as a tool.
+void split_region(Span<const FaceId> faces, std::uint32_t old_label, std::uint32_t new_label,
+                  Span<std::uint32_t> region, DualDistance& distances);
+
+}  // namespace v1
+}  // namespace isolod

@@ -1,0 +1,262 @@
+// The narrated order of the stages: from the caller's triangles to the first mesh.
+#include "mesh/validate.h"
+#include "base/hash.h"
+#include "pipeline/state.h"
+#include "result/lift.h"
+#include "surface/density.h"
+#include "surface/features.h"
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+
+using State = Remesher::State;
+
+constexpr double refine_limit = 1.25;  // wished edge lengths
+
+std::uint64_t face_units(const State& s) { return s.surface.mesh.face_count(); }
+
+Status step_repair(State& s, bool& done, std::uint64_t& units) {
+  units = s.view.triangle_count + s.view.vertex_count;
+  if (!s.stage_begun) return s.repair.begin(s.view, s.options.weld, *s.arena);
+  if (!s.repair.done()) return s.repair.step();
+  done = true;
+  return s.repair.finish(s.repaired, s.report.repair, *s.arena);
+}
+
+Status step_halfedge(State& s, bool& done, std::uint64_t& units) {
+  s.surface.view = &s.view;
+  s.surface.source_vertex = s.repaired.source_vertex;
+  s.surface.source_face = s.repaired.source_triangle;
+  s.surface.mesh.origin = s.repaired.triangles;
+  ISOLOD_TRY(connect(s.surface.mesh, s.repaired.source_vertex.count, *s.arena));
+  Topology topology;
+  ISOLOD_TRY(measure_topology(s.surface.mesh, topology, *s.arena));
+  s.report.components = static_cast<std::uint32_t>(topology.components);
+  s.report.boundary_loops = static_cast<std::uint32_t>(topology.boundary_loops);
+  units = face_units(s);
+  done = true;
+  return {};
+}
+
+Status step_features(State& s, bool& done, std::uint64_t& units) {
+  units = face_units(s);
+  done = true;
+  return find_features(s.surface, {s.options.feature_angle, s.options.corner_angle}, *s.arena);
+}
+
+Status step_density(State& s, bool& done, std::uint64_t& units) {
+  units = face_units(s) * (1 + s.options.smoothing_passes);
+  done = true;
+  return find_density(s.surface, {s.options.density, s.options.gamma, s.options.smoothing_passes}, *s.arena);
+}
+
+/// Fewer samples than this cannot hold the surface together: its corners, three a loop, four a component.
+std::uint64_t least_budget(const State& s, const DensityIntegrals& integrals) {
+  return integrals.corner_count + 3 * std::uint64_t{s.report.boundary_loops} + 4 * std::uint64_t{s.report.components};
+}
+
+Status step_calibrate(State& s, bool& done, std::uint64_t& units) {
+  const DensityIntegrals integrals = integrate_density(s.surface);
+  s.report.corners = integrals.corner_count;
+  s.rates = solve_rates(integrals, s.options.vertex_count, s.options.calibration);
+  units = face_units(s);
+  done = true;
+  if (s.rates.line > 0) return {};
+  return fail(Status::budget_too_small, Element::count, least_budget(s, integrals));
+}
+
+Status step_refine(State& s, bool& done, std::uint64_t& units) {
+  if (!s.stage_begun) ISOLOD_TRY(s.refine.begin(s.surface, s.rates.line, refine_limit, *s.arena));
+  ISOLOD_TRY(s.refine.step(s.surface, *s.arena));
+  units = face_units(s);
+  done = s.refine.done();
+  return {};
+}
+
+Status step_atlas(State& s, bool& done, std::uint64_t& units) {
+  if (!s.stage_begun) {
+    AtlasOptions options;
+    options.line_rate = s.rates.line;
+    options.surface_rate = s.rates.surface;
+    units = 20 * face_units(s);
+    return s.make_atlas.begin(s.surface, options, *s.arena);
+  }
+  if (!s.make_atlas.done()) {
+    units = 4000;
+    return s.make_atlas.step(*s.arena);
+  }
+  done = true;
+  units = face_units(s);
+  ISOLOD_TRY(s.make_atlas.finish(s.surface, s.atlas, s.uv, *s.arena));
+  s.report.charts = static_cast<std::uint32_t>(s.atlas.chart_count());
+  return {};
+}
+
+Status step_lines(State& s, bool& done, std::uint64_t& units) {
+  ISOLOD_TRY(chain_backbones(s.surface, s.backbones, *s.arena));
+  if (s.options.calibration == Calibration::paper) {
+    DensityIntegrals integrals = integrate_density(s.surface);
+    integrals.corner_count = static_cast<std::uint32_t>(s.backbones.node.count);
+    s.rates = solve_rates(integrals, s.options.vertex_count, s.options.calibration);
+  }
+  const std::uint64_t budget = s.options.vertex_count, nodes = s.backbones.node.count;
+  const std::uint32_t room = budget > nodes ? static_cast<std::uint32_t>(budget - nodes) : 0;
+  const Status status = sample_lines(s.surface, s.backbones, s.rates.line, room, s.lines, *s.arena);
+  if (status == Status::budget_too_small) return fail(status.code, status.element, status.value + nodes);
+  ISOLOD_TRY(status);
+  s.numbers = {static_cast<std::uint32_t>(nodes), static_cast<std::uint32_t>(s.lines.place.count)};
+  units = face_units(s);
+  done = true;
+  return {};
+}
+
+void count_samples(State& s) {
+  Report& report = s.report;
+  report.backbones = static_cast<std::uint32_t>(s.backbones.count());
+  report.seam_samples = report.feature_samples = 0;
+  for (std::size_t b = 0; b < s.backbones.count(); ++b) {
+    (is_feature(s.surface, s.backbones, b) ? report.feature_samples : report.seam_samples) += s.lines.inner_count(b);
+  }
+  report.feature_samples += report.corners;
+  report.seam_samples += s.numbers.node_count - report.corners;
+  report.surface_samples = static_cast<std::uint32_t>(s.places.count);
+}
+
+Status step_diffuse(State& s, bool& done, std::uint64_t& units) {
+  const std::uint32_t surface_samples = s.options.vertex_count - s.numbers.node_count - s.numbers.line_count;
+  ISOLOD_TRY(s.arena->result(surface_samples, s.places));
+  ISOLOD_TRY(s.arena->result(s.atlas.chart_count() + 1, s.chart_start));
+  const ScratchScope scope(*s.arena);
+  Span<std::uint32_t> face_count;
+  ISOLOD_TRY(s.arena->scratch(s.surface.mesh.face_count(), face_count));
+  ISOLOD_TRY(diffuse(s.surface, s.backbones, s.lines, s.rates.surface, surface_samples, face_count, *s.arena));
+  place_samples(s.surface, s.atlas, face_count, s.chart_start, s.places);
+  count_samples(s);
+  units = face_units(s) + surface_samples;
+  done = true;
+  return {};
+}
+
+/// F = 2 V - B - 2 chi, B the samples on boundaries.
+std::size_t result_face_count(const State& s) {
+  std::int64_t boundary = 0;
+  for (std::size_t b = 0; b < s.backbones.count(); ++b) {
+    if (is_boundary(s.surface, s.backbones, b)) boundary += s.lines.interval_count(s.surface, s.backbones, b);
+  }
+  const std::int64_t chi = integrate_density(s.surface).euler_characteristic;
+  const std::int64_t faces = 2 * std::int64_t{s.options.vertex_count} - boundary - 2 * chi;
+  return faces > 0 ? static_cast<std::size_t>(faces) : 0;
+}
+
+Status step_charts(State& s, bool& done, std::uint64_t& units) {
+  if (!s.stage_begun) ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.options.vertex_count, *s.arena));
+  const ScratchScope scope(*s.arena);
+  const std::size_t chart = s.piece++;
+  FlatChart flat;
+  ChartSites sites;
+  Lloyd lloyd;
+  ISOLOD_TRY(build_flat_chart(s.surface, s.atlas, s.uv, chart, flat, *s.arena));
+  ISOLOD_TRY(triangulate_sites(s.sampled(), flat, chart, sites, *s.arena));
+  const std::uint32_t first_movable = s.numbers.node_count + s.numbers.line_count;
+  ISOLOD_TRY(lloyd.begin(s.surface, flat, sites, first_movable, {s.options.weight, 1}, *s.arena));
+  lloyd.untangle();
+  for (std::uint32_t i = 0; i < s.options.lloyd_iterations; ++i) lloyd.iterate();
+  for (VertexId v : Ids<VertexId>(sites.sample.count)) {
+    if (sites.sample[v].value >= first_movable) s.places[sites.sample[v].value - first_movable] = lloyd.lift(v);
+  }
+  units = flat.chart.faces.count * 10 + sites.sample.count * (10 + 4 * std::uint64_t{s.options.lloyd_iterations});
+  done = s.piece == s.atlas.chart_count();
+  return s.stitch.add(sites);
+}
+
+Status step_stitch(State& s, bool& done, std::uint64_t& units) {
+  ISOLOD_TRY(s.stitch.finish(*s.arena));
+  ISOLOD_TRY(s.arena->result(3 * std::size_t{s.options.vertex_count}, s.positions));
+  lift_samples(s.sampled(), s.positions);
+  const Halfedges& mesh = s.stitch.mesh().mesh;
+  ISOLOD_TRY(s.arena->result(mesh.halfedge_count(), s.triangles));
+  for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) s.triangles[h] = mesh.origin[h].value;
+  units = s.options.vertex_count;
+  done = true;
+  return {};
+}
+
+Status step_validate(State& s, bool& done, std::uint64_t& units) {
+  units = s.options.vertex_count;
+  done = true;
+#if !defined(ISOLOD_CHECKED)
+  if (!s.options.validate) return {};
+#endif
+  Finding finding;
+  ISOLOD_TRY(find_defect(s.triangles, s.positions, s.options.vertex_count, finding, *s.arena));
+  if (finding.defect == Defect::none) return {};
+  return fail(Status::invalid_result, Element::vertex, finding.element);
+}
+
+template <class T, class Add>
+std::uint64_t hash_all(Span<T> items, Add add) {
+  ContentHash hash;
+  for (const auto& item : items) add(hash, item);
+  return hash.value();
+}
+
+std::uint64_t hash_connectivity(const State& s) {
+  return hash_all(s.surface.mesh.origin, [](ContentHash& hash, VertexId v) { hash.add(v.value); });
+}
+std::uint64_t hash_lines(const State& s) {
+  return hash_all(s.surface.line, [](ContentHash& hash, std::uint8_t l) { hash.add(std::uint32_t{l}); });
+}
+std::uint64_t hash_density(const State& s) {
+  return hash_all(s.surface.wedge_density, [](ContentHash& hash, float d) { hash.add(d); });
+}
+std::uint64_t hash_rates(const State& s) {
+  ContentHash hash;
+  hash.add(s.rates.line);
+  hash.add(s.rates.surface);
+  return hash.value();
+}
+std::uint64_t hash_atlas(const State& s) {
+  ContentHash hash;
+  for (std::uint32_t c : s.atlas.chart_of_face) hash.add(c);
+  for (const Vec2f& p : s.uv) hash.add(p.x), hash.add(p.y);
+  return hash.value();
+}
+std::uint64_t hash_line_samples(const State& s) {
+  return hash_all(s.lines.place, [](ContentHash& hash, const LinePlace& p) { hash.add(p.edge), hash.add(p.along); });
+}
+std::uint64_t hash_places(const State& s) {
+  return hash_all(s.places, [](ContentHash& hash, const SurfacePlace& p) {
+    hash.add(p.face.value), hash.add(p.weight1), hash.add(p.weight2);
+  });
+}
+std::uint64_t hash_result(const State& s) {
+  ContentHash hash;
+  for (double x : s.positions) hash.add(x);
+  for (std::uint32_t v : s.triangles) hash.add(v);
+  return hash.value();
+}
+
+}  // namespace
+
+const StageEntry stage_entries[] = {
+    {"repair", step_repair, [](const State& s) {
+       return hash_all(s.repaired.triangles, [](ContentHash& hash, VertexId v) { hash.add(v.value); });
+     }, 0.05},
+    {"halfedge", step_halfedge, hash_connectivity, 0.02},
+    {"features", step_features, hash_lines, 0.02},
+    {"density", step_density, hash_density, 0.02},
+    {"calibrate", step_calibrate, hash_rates, 0.01},
+    {"refine", step_refine, hash_connectivity, 0.02},
+    {"atlas", step_atlas, hash_atlas, 0.4},
+    {"lines", step_lines, hash_line_samples, 0.01},
+    {"diffuse", step_diffuse, hash_places, 0.02},
+    {"charts", step_charts, hash_places, 0.4},
+    {"stitch", step_stitch, hash_result, 0.02},
+    {"validate", step_validate, hash_result, 0.01},
+};
+const std::uint32_t stage_entry_count = sizeof stage_entries / sizeof stage_entries[0];
+
+}  // namespace v1
+}  // namespace isolod

@@ -1,0 +1,50 @@
+// The atlas: a partition of the surface whose charts all have good maps. A chart whose map fails is split in two and tried
+// again; a single triangle always passes, so this ends.
+#pragma once
+
+#include "atlas/chart.h"
+#include "atlas/partition.h"
+#include "plane/flatten.h"
+
+namespace isolod {
+inline namespace v1 {
+
+struct AtlasOptions {
+  double line_rate = 0;     ///< R_f
+  double surface_rate = 0;  ///< R_s
+  double samples_per_chart = 250;
+  std::uint32_t most_faces_per_chart = 20000;
+  FlattenOptions flatten;
+};
+
+/// A stage: begin, step until done, finish. Results: 12 bytes a face for the atlas and 8 bytes a halfedge for `uv`.
+class MakeAtlas {
+ public:
+  Status begin(const Surface& surface, const AtlasOptions& options, Arena& arena);
+  /// Tries one chart.
+  Status step(Arena& arena);
+  bool done() const { return position_ == order_.count; }
+  double share_done() const { return static_cast<double>(position_) / static_cast<double>(order_.count); }
+  /// Numbers the charts in the order of their faces, adds line_seam to the edges between them, and gives scratch back.
+  Status finish(Surface& surface, Atlas& atlas, Span<Vec2f>& uv, Arena& arena);
+
+ private:
+  bool is_too_large(Span<const FaceId> faces) const;
+  Status try_map(Span<const FaceId> faces, bool& good, Arena& arena);
+  Status split(Span<FaceId> faces, Arena& arena);
+
+  const Surface* surface_ = nullptr;
+  AtlasOptions options_;
+  Span<std::uint32_t> label_;
+  Span<FaceId> order_;
+  Span<std::uint32_t> place_;
+  Span<Vec2f> uv_;
+  DualDistance distances_;
+  ArenaMark mark_;
+  std::uint32_t next_label_ = 0;
+  std::size_t position_ = 0;
+  std::uint32_t chart_count_ = 0;
+};
+
+}  // namespace v1
+}  // namespace isolod

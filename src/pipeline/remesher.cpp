@@ -1,0 +1,131 @@
+// The state machine that runs the stages, and the plain call that runs it to its end.
+#include <new>
+
+#include "pipeline/state.h"
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+
+Status check_options(const Options& options) {
+  const bool angles = options.feature_angle >= 0 && options.feature_angle <= 180 && options.corner_angle > 0 &&
+                      options.corner_angle <= 180;
+  if (options.vertex_count == 0) return fail(Status::invalid_option, Element::option, 0);
+  if (options.vertex_count > (UINT32_MAX >> 3)) return fail(Status::too_large, Element::count, UINT32_MAX >> 3);
+  if (!angles) return fail(Status::invalid_option, Element::option, 1);
+  if (!(options.gamma >= 0 && options.gamma <= 8)) return fail(Status::invalid_option, Element::option, 4);
+  return {};
+}
+
+double now(const Hooks& hooks) { return hooks.clock != nullptr ? hooks.clock(hooks.context) : 0; }
+
+double share_done(std::uint32_t stage) {
+  double share = 0;
+  for (std::uint32_t i = 0; i < stage; ++i) share += stage_entries[i].share;
+  return smaller(1, share);
+}
+
+void close_stage(Remesher::State& s) {
+  StageReport& stage = s.report.stages[s.report.stage_count++];
+  stage.name = stage_entries[s.stage].name;
+  stage.hash = stage_entries[s.stage].hash(s);
+  stage.seconds = now(s.hooks) - s.stage_start;
+  stage.arena_bytes = s.arena->high_water();
+  s.report.arena_bytes = stage.arena_bytes > s.report.arena_bytes ? stage.arena_bytes : s.report.arena_bytes;
+  s.arena->reset_high_water();
+}
+
+/// One piece of the present stage.
+Status do_piece(Remesher::State& s, std::uint64_t& units) {
+  if (!s.stage_begun) s.stage_start = now(s.hooks);
+  bool done = false;
+  ISOLOD_TRY(stage_entries[s.stage].step(s, done, units));
+  s.stage_begun = !done;
+  if (!done) return {};
+  close_stage(s);
+  s.piece = 0;
+  ++s.stage;
+  return {};
+}
+
+}  // namespace
+
+Status Remesher::begin(const MeshView& view, const Options& options, const Hooks& hooks, Arena& arena) {
+  ISOLOD_TRY(check_options(options));
+  const ArenaMark mark = arena.mark();
+  Span<State> room;
+  ISOLOD_TRY(arena.result(1, room));
+  state_ = new (room.data) State;
+  state_->view = view;
+  state_->options = options;
+  state_->hooks = hooks;
+  state_->arena = &arena;
+  state_->mark = mark;
+  arena.reset_high_water();
+  return {};
+}
+
+Status Remesher::advance(std::uint64_t work) {
+  State& s = *state_;
+  for (std::uint64_t spent = 0; spent <= work && !done() && s.report.status.is_ok();) {
+    std::uint64_t units = 1;
+    s.report.status = do_piece(s, units);
+    spent += units;
+    if (!s.report.status.is_ok() || s.hooks.progress == nullptr) continue;
+    const char* name = done() ? "done" : stage_entries[s.stage].name;
+    if (!s.hooks.progress(s.hooks.context, name, share_done(s.stage))) s.report.status = fail(Status::cancelled);
+  }
+  if (s.report.status.is_ok() && done()) s.report.result_hash = s.report.stages[s.report.stage_count - 1].hash;
+  return s.report.status;
+}
+
+bool Remesher::done() const { return state_ != nullptr && state_->stage == stage_entry_count; }
+
+ResultMesh Remesher::result() const { return {state_->positions, state_->triangles}; }
+
+const Report& Remesher::report() const { return state_->report; }
+
+namespace {
+
+Status deliver(const ResultMesh& mesh, const MeshSink& sink) {
+  const std::size_t vertices = mesh.positions.count / 3, triangles = mesh.triangles.count / 3;
+  if (sink.begin != nullptr && !sink.begin(sink.context, vertices, triangles)) return fail(Status::sink_failed);
+  if (sink.vertices != nullptr && !sink.vertices(sink.context, mesh.positions.data, vertices)) {
+    return fail(Status::sink_failed);
+  }
+  if (sink.triangles != nullptr && !sink.triangles(sink.context, mesh.triangles.data, triangles)) {
+    return fail(Status::sink_failed);
+  }
+  return {};
+}
+
+}  // namespace
+
+Status remesh(const MeshView& view, const Options& options, const MeshSink& sink, Report* report, Arena& arena,
+              const Hooks& hooks) {
+  const ArenaMark mark = arena.mark();
+  Remesher remesher;
+  Status status = remesher.begin(view, options, hooks, arena);
+  if (status.is_ok()) {
+    status = remesher.advance(UINT64_MAX - 1);
+    if (status == Status::out_of_memory) {
+      const std::size_t enough = required_memory(view.vertex_count, view.triangle_count, options);
+      if (status.value < enough) status.value = enough;
+    }
+    if (report != nullptr) *report = remesher.report();
+    if (status.is_ok()) status = deliver(remesher.result(), sink);
+  }
+  if (report != nullptr) report->status = status;
+  arena.rewind_results(mark);
+  arena.rewind_scratch(mark);
+  return status;
+}
+
+std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options) {
+  const std::size_t samples = options.vertex_count;
+  return (std::size_t{1} << 20) + 120 * vertex_count + 400 * triangle_count + 2500 * samples;
+}
+
+}  // namespace v1
+}  // namespace isolod

@@ -1,0 +1,63 @@
+// What a run holds from one piece of work to the next. It lies in the arena.
+#pragma once
+
+#include "isolod/remesh.h"
+#include "mesh/repair.h"
+#include "pipeline/make_atlas.h"
+#include "plane/lloyd.h"
+#include "result/stitch.h"
+#include "sample/calibrate.h"
+#include "sample/diffuse.h"
+#include "surface/refine.h"
+
+namespace isolod {
+inline namespace v1 {
+
+struct Remesher::State {
+  MeshView view;
+  Options options;
+  Hooks hooks;
+  Arena* arena = nullptr;
+  ArenaMark mark;
+  Report report;
+
+  std::uint32_t stage = 0;
+  bool stage_begun = false;
+  double stage_start = 0;
+  std::uint32_t piece = 0;  ///< of the stage: the next chart
+
+  Repair repair;
+  RepairedMesh repaired;
+  Surface surface;
+  Rates rates;
+  Refine refine;
+  MakeAtlas make_atlas;
+  Atlas atlas;
+  Span<Vec2f> uv;
+  Backbones backbones;
+  LineSamples lines;
+  Span<SurfacePlace> places;
+  Span<std::uint32_t> chart_start;
+  SampleNumbers numbers;
+  Stitch stitch;
+  Span<double> positions;
+  Span<std::uint32_t> triangles;
+
+  SampledSurface sampled() const {
+    return {&surface, &atlas, &backbones, &lines, places, chart_start, numbers};
+  }
+};
+
+/// A stage of the run: its name and its work, piece by piece. `units` is what the piece cost.
+struct StageEntry {
+  const char* name;
+  Status (*step)(Remesher::State& state, bool& done, std::uint64_t& units);
+  std::uint64_t (*hash)(const Remesher::State& state);
+  double share;  ///< of the whole time, roughly, for the progress callback
+};
+
+extern const StageEntry stage_entries[];
+extern const std::uint32_t stage_entry_count;
+
+}  // namespace v1
+}  // namespace isolod

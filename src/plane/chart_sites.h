@@ -1,0 +1,61 @@
+// The constrained Delaunay triangulation of one chart's samples, grown out of its flattened mesh.
+//
+// Paper, section 4.3. The samples are put into the flattened mesh itself, line samples on the edges that carry them and the others by
+// walking; then the original vertices that are no samples are taken out again, inner ones first, so that the chords between
+// samples take the place of the lines. Everything is local: an overlap of the map does no harm, and the result is a manifold
+// with the chart's topology even where a chord leaves the domain.
+#pragma once
+
+#include "plane/delaunay.h"
+#include "plane/flatten.h"
+#include "sample/line_samples.h"
+#include "sample/place.h"
+
+namespace isolod {
+inline namespace v1 {
+
+/// All samples of a run by number: nodes first, then those on lines, backbone by backbone, then those on faces.
+struct SampleNumbers {
+  std::uint32_t node_count = 0;
+  std::uint32_t line_count = 0;
+
+  SampleId of_node(std::uint32_t node) const { return {node}; }
+  SampleId of_line(std::uint32_t line_sample) const { return {node_count + line_sample}; }
+  SampleId of_surface(std::uint32_t surface_sample) const { return {node_count + line_count + surface_sample}; }
+};
+
+/// What a chart's samples are made of.
+struct SampledSurface {
+  const Surface* surface;
+  const Atlas* atlas;
+  const Backbones* backbones;
+  const LineSamples* lines;
+  Span<const SurfacePlace> places;
+  Span<const std::uint32_t> chart_start;  ///< per chart, one more at the end: its part of `places`
+  SampleNumbers numbers;
+};
+
+/// The flattened chart: what samples are located in.
+struct FlatChart {
+  Chart chart;
+  Span<Vec2> uv;              ///< per local vertex
+  Span<std::uint8_t> barrier;  ///< per local halfedge: 1 on lines
+};
+
+struct ChartSites {
+  PlaneTriangulation plane;
+  Span<SampleId> sample;   ///< per vertex
+  Span<FaceId> home;       ///< per vertex: a local face of the flat chart near it, where walks begin
+  std::uint32_t stuck = 0;  ///< original vertices that could not be taken out
+};
+
+/// Builds the local chart and its map. Scratch stays with the caller's scope.
+Status build_flat_chart(const Surface& surface, const Atlas& atlas, Span<const Vec2f> uv, std::size_t chart,
+                        FlatChart& flat, Arena& arena);
+
+/// Fills `sites`. Scratch of about 150 bytes a local face and 100 a sample stays with the caller's scope. O(n) time in practice.
+Status triangulate_sites(const SampledSurface& samples, const FlatChart& flat, std::size_t chart, ChartSites& sites,
+                         Arena& arena);
+
+}  // namespace v1
+}  // namespace isolod

@@ -1,0 +1,60 @@
+// Lloyd's relaxation of the sites of one chart.
+//
+// Paper, section 4.4.1 and section 6: every site inside moves to the centroid of its bounded Voronoi cell, all at once, and the
+// triangulation is mended by flips from where it was. The weight is looked up where the sites are and is linear between them.
+// Sites on lines stay. A step that would invert a face, or take a site over a line of the surface, is shortened or
+// dropped. The weight for a wished density d is d^2: the fixed point then has d sites per area (Gersho 1979; Du, Faber and
+// Gunzburger 1999).
+#pragma once
+
+#include "isolod/options.h"
+#include "plane/chart_sites.h"
+#include "plane/locate.h"
+#include "plane/voronoi_cell.h"
+
+namespace isolod {
+inline namespace v1 {
+
+struct LloydOptions {
+  LloydWeight weight = LloydWeight::equal;
+  double step = 1;  ///< times the way to the centroid
+};
+
+class Lloyd {
+ public:
+  /// Scratch of 50 bytes a face and 40 a site stays with the caller's scope.
+  Status begin(const Surface& surface, const FlatChart& flat, ChartSites& sites, std::uint32_t first_movable,
+               const LloydOptions& options, Arena& arena);
+
+  /// Moves sites out of faces that are not positive, as far as that can be done.
+  void untangle();
+
+  /// One iteration; returns the greatest move in units of the mean spacing.
+  double iterate();
+
+  /// Where site v lies on the surface.
+  SurfacePlace lift(VertexId v) const;
+
+ private:
+  bool is_movable(VertexId v) const { return sites_->sample[v].value >= first_movable_; }
+  bool settle(VertexId v, Vec2 target);
+  void fill_weights(const Surface& surface, LloydWeight kind);
+  void look_up(VertexId v, const Location& location);
+  void find_targets();
+  void limit_steps();
+  Vec2 mean_of_neighbours(VertexId v) const;
+  bool fits(VertexId v, Vec2 target) const;
+
+  const FlatChart* flat_ = nullptr;
+  ChartSites* sites_ = nullptr;
+  std::uint32_t first_movable_ = 0;
+  LloydOptions options_;
+  WalkGround ground_{};
+  Span<double> corner_weight_;  // per local halfedge of the flat chart
+  Span<double> site_weight_;
+  Span<Vec2> target_;
+  CellCorners corners_;
+};
+
+}  // namespace v1
+}  // namespace isolod

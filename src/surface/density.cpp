@@ -1,0 +1,142 @@
+#include "surface/density.h"
+
+#include "base/elementary.h"
+#include "base/status.h"
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+
+constexpr double least_curvature = 1, greatest_curvature = 256;  // in units of 1 / diagonal
+
+double diagonal(const Surface& surface) {
+  Vec3 low = surface.position(VertexId{0}), high = low;
+  for (VertexId v : Ids<VertexId>(surface.mesh.vertex_count())) {
+    const Vec3 p = surface.position(v);
+    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
+    high = {greater(high.x, p.x), greater(high.y, p.y), greater(high.z, p.z)};
+  }
+  return distance(low, high);
+}
+
+/// Calls visit(h) for each halfedge out of the origin of `first`, which starts a wedge, within that wedge.
+template <class Visit>
+void visit_wedge(const Surface& surface, HalfedgeId first, Visit visit) {
+  HalfedgeId h = first;
+  do {
+    visit(h);
+    h = surface.mesh.turn_left(h);
+  } while (!h.is_none() && h != first && surface.line[h] == line_none);
+}
+
+/// A wedge starts at a line, or at `outgoing` where the vertex has none.
+bool starts_wedge(const Surface& surface, HalfedgeId h) {
+  if (surface.line[h] != line_none) return true;
+  return surface.mesh.outgoing[surface.mesh.origin[h]] == h && wedge_start(surface, h) == h;
+}
+
+/// What one face gives to the operator at the origin of `h`.
+struct CurvaturePart {
+  Vec3 normal;  // half the sum of cotangents times edges
+  Vec3 area_normal;
+  double mixed_area;
+};
+
+CurvaturePart curvature_part(const Surface& surface, HalfedgeId h) {
+  const Vec3 p = surface.position(surface.mesh.origin[h]);
+  const Vec3 to_q = surface.position(surface.mesh.target(h)) - p;
+  const Vec3 to_r = surface.position(surface.mesh.apex(h)) - p;
+  const Vec3 along = to_r - to_q;
+  const Vec3 normal = cross(to_q, to_r);
+  const double twice_area = length(normal);
+  const double cosine_p = dot(to_q, to_r), cosine_q = -dot(to_q, along), cosine_r = dot(to_r, along);
+  const double cot_q = cosine_q / twice_area, cot_r = cosine_r / twice_area;
+  CurvaturePart part{0.5 * (cot_r * to_q + cot_q * to_r), normal, 0};
+  if (cosine_p < 0) {
+    part.mixed_area = twice_area / 4;
+  } else if (cosine_q < 0 || cosine_r < 0) {
+    part.mixed_area = twice_area / 8;
+  } else {
+    part.mixed_area = (cot_r * dot(to_q, to_q) + cot_q * dot(to_r, to_r)) / 8;
+  }
+  return part;
+}
+
+double wedge_mean_curvature(const Surface& surface, HalfedgeId first) {
+  CurvaturePart sum{{0, 0, 0}, {0, 0, 0}, 0};
+  visit_wedge(surface, first, [&](HalfedgeId h) {
+    const CurvaturePart part = curvature_part(surface, h);
+    sum.normal = sum.normal + part.normal;
+    sum.area_normal = sum.area_normal + part.area_normal;
+    sum.mixed_area += part.mixed_area;
+  });
+  const double scale = length(sum.area_normal) * sum.mixed_area;
+  return scale > 0 ? 0.5 * absolute(dot(sum.normal, sum.area_normal)) / scale : 0;
+}
+
+void fill_curvature(Surface& surface, double gamma) {
+  const double scale = diagonal(surface);
+  for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
+    if (!starts_wedge(surface, h)) continue;
+    const double x = greater(least_curvature, smaller(greatest_curvature, scale * wedge_mean_curvature(surface, h)));
+    const float d = static_cast<float>(power(x, gamma));
+    visit_wedge(surface, h, [&](HalfedgeId w) { surface.wedge_density[w] = d; });
+  }
+}
+
+Status fill_given(Surface& surface) {
+  const double* given = surface.view->vertex_density;
+  if (given == nullptr) return fail(Status::invalid_option);
+  double greatest = 0;
+  for (std::uint32_t source : surface.source_vertex) {
+    const double d = given[source];
+    if (!(d > 0) || !(d < 1e300)) return fail(Status::density_not_positive, Element::vertex, source);
+    greatest = greater(greatest, d);
+  }
+  for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
+    const double relative = given[surface.source_vertex[surface.mesh.origin[h]]] / greatest;
+    surface.wedge_density[h] = static_cast<float>(greater(relative, 1e-12));
+  }
+  return {};
+}
+
+void smooth_once(Surface& surface, Span<float> face_mean) {
+  for (FaceId f : Ids<FaceId>(surface.mesh.face_count())) {
+    const double sum =
+        surface.density(halfedge(f, 0)) + surface.density(halfedge(f, 1)) + surface.density(halfedge(f, 2));
+    face_mean[f] = static_cast<float>(sum / 3);
+  }
+  for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
+    if (!starts_wedge(surface, h)) continue;
+    double mass = 0, area = 0;
+    visit_wedge(surface, h, [&](HalfedgeId w) {
+      const double a = face_area(surface, face(w));
+      mass += a * static_cast<double>(face_mean[face(w)]);
+      area += a;
+    });
+    const float mean = static_cast<float>(mass / area);
+    visit_wedge(surface, h, [&](HalfedgeId w) { surface.wedge_density[w] = mean; });
+  }
+}
+
+}  // namespace
+
+Status find_density(Surface& surface, const DensityOptions& options, Arena& arena) {
+  surface.wedge_density = {};
+  if (options.source == DensitySource::uniform) return {};
+  ISOLOD_TRY(arena.result(surface.mesh.halfedge_count(), surface.wedge_density));
+  if (options.source == DensitySource::given) {
+    ISOLOD_TRY(fill_given(surface));
+  } else {
+    fill_curvature(surface, options.gamma);
+  }
+  const ScratchScope scope(arena);
+  Span<float> face_mean;
+  ISOLOD_TRY(arena.scratch(surface.mesh.face_count(), face_mean));
+  for (std::uint32_t pass = 0; pass < options.smoothing_passes; ++pass) smooth_once(surface, face_mean);
+  return {};
+}
+
+}  // namespace v1
+}  // namespace isolod

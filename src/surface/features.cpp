@@ -1,0 +1,120 @@
+#include "surface/features.h"
+
+#include "base/elementary.h"
+#include "base/sort.h"
+#include "base/status.h"
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+
+constexpr double degrees_per_radian = 57.295779513082320877;
+
+double angle_between(Vec3 a, Vec3 b) { return degrees_per_radian * arc_tangent2(length(cross(a, b)), dot(a, b)); }
+
+void mark(Surface& surface, HalfedgeId h, LineKind kind) {
+  surface.line[h] = static_cast<std::uint8_t>(surface.line[h] | kind);
+  if (const HalfedgeId t = surface.mesh.twin[h]; !t.is_none()) surface.line[t] = surface.line[h];
+}
+
+void mark_geometry(Surface& surface, double feature_angle) {
+  for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
+    const HalfedgeId t = surface.mesh.twin[h];
+    if (t.is_none()) {
+      mark(surface, h, line_boundary);
+    } else if (h < t && feature_angle > 0 &&
+               angle_between(area_vector(surface, face(h)), area_vector(surface, face(t))) > feature_angle) {
+      mark(surface, h, line_sharp);
+    }
+  }
+}
+
+void mark_materials(Surface& surface) {
+  const std::uint32_t* material = surface.view->triangle_materials;
+  if (material == nullptr) return;
+  for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
+    const HalfedgeId t = surface.mesh.twin[h];
+    if (t.is_none() || !(h < t)) continue;
+    if (material[surface.source_face[face(h)]] != material[surface.source_face[face(t)]]) mark(surface, h, line_tagged);
+  }
+}
+
+/// Repair may have made several vertices of one of the caller's: copies[start[v]] to copies[start[v + 1]] are v's.
+struct Copies {
+  Span<std::uint32_t> start;
+  Span<VertexId> copies;
+};
+
+void mark_between(Surface& surface, const Copies& copies, std::uint32_t a, std::uint32_t b) {
+  for (std::uint32_t i = copies.start[a]; i < copies.start[a + 1]; ++i) {
+    for (std::uint32_t j = copies.start[b]; j < copies.start[b + 1]; ++j) {
+      const HalfedgeId forth = find_halfedge(surface.mesh, copies.copies[i], copies.copies[j]);
+      const HalfedgeId back = find_halfedge(surface.mesh, copies.copies[j], copies.copies[i]);
+      if (!forth.is_none()) mark(surface, forth, line_tagged);
+      if (!back.is_none()) mark(surface, back, line_tagged);
+    }
+  }
+}
+
+Status mark_tags(Surface& surface, Arena& arena) {
+  const MeshView& view = *surface.view;
+  if (view.tagged_edge_count == 0) return {};
+  const ScratchScope scope(arena);
+  Copies copies;
+  Span<VertexId> vertices;
+  ISOLOD_TRY(arena.scratch(view.vertex_count + 1, copies.start));
+  ISOLOD_TRY(arena.scratch(surface.source_vertex.count, copies.copies));
+  ISOLOD_TRY(arena.scratch(surface.source_vertex.count, vertices));
+  for (VertexId v : Ids<VertexId>(vertices.count)) vertices[v] = v;
+  counting_sort<VertexId>(vertices, copies.copies, copies.start,
+                          [&](VertexId v) { return surface.source_vertex[v]; });
+  for (std::size_t e = 0; e < view.tagged_edge_count; ++e) {
+    const std::uint32_t a = view.tagged_edges[2 * e], b = view.tagged_edges[2 * e + 1];
+    if (a >= view.vertex_count || b >= view.vertex_count) return fail(Status::index_out_of_range, Element::edge, e);
+    mark_between(surface, copies, a, b);
+  }
+  return {};
+}
+
+/// The turn of the line at a vertex of exactly two feature edges, in degrees; 180 for any other number but none.
+double feature_turn(const Surface& surface, VertexId v) {
+  const Halfedges& mesh = surface.mesh;
+  Vec3 away[2] = {};
+  std::size_t found = 0;
+  const Vec3 here = surface.position(v);
+  const HalfedgeId first = mesh.outgoing[v];
+  HalfedgeId h = first;
+  do {
+    if (surface.line[h] & line_feature) {
+      if (found < 2) away[found] = surface.position(mesh.target(h)) - here;
+      ++found;
+    }
+    const HalfedgeId left = mesh.turn_left(h);
+    if (left.is_none()) {
+      if (found < 2) away[found] = surface.position(mesh.apex(h)) - here;
+      ++found;
+    }
+    h = left;
+  } while (!h.is_none() && h != first);
+  if (found == 0) return 0;
+  return found == 2 ? 180 - angle_between(away[0], away[1]) : 180;
+}
+
+}  // namespace
+
+Status find_features(Surface& surface, const FeatureOptions& options, Arena& arena) {
+  ISOLOD_TRY(arena.result(surface.mesh.halfedge_count(), surface.line));
+  ISOLOD_TRY(arena.result(surface.mesh.vertex_count(), surface.corner));
+  for (std::uint8_t& l : surface.line) l = line_none;
+  mark_geometry(surface, options.feature_angle);
+  mark_materials(surface);
+  ISOLOD_TRY(mark_tags(surface, arena));
+  for (VertexId v : Ids<VertexId>(surface.mesh.vertex_count())) {
+    surface.corner[v] = feature_turn(surface, v) > options.corner_angle;
+  }
+  return {};
+}
+
+}  // namespace v1
+}  // namespace isolod

@@ -1,0 +1,174 @@
+"""The bars that results are held against, and how verdicts are printed. Used by check_models.py."""
+
+BARS = {
+    "exact": "exactly V vertices, no unused one; a refusal only below what the shape needs, naming a number that works",
+    "manifold": "edge- and vertex-manifold, consistently oriented",
+    "side": "oriented as the input: volume of the same sign",
+    "topology": "genus, boundary loops and components as the input",
+    "triangles": "no degenerate and no duplicate triangle",
+    "smooth": "Q mean >= 0.90, under 30 degrees <= 0.2 %, Hausdorff <= 0.8 %, RMS <= 0.06 %, no flip, <= 0.02 % doubtful ones",
+    "crossings": "no more crossing pairs than the input has",
+    "lines": "sharp and boundary lines within max(0.02 %, 1.2 sagittas) of edges, straight ones 1e-6, corners in place",
+    "time": "bunny to 10,000 vertices in 3 s and 64 MB",
+    "broken": "a clean error or a repair, under 10 s, in memory of a small multiple of the file",
+}
+
+# Where sheets lie closer together than three spacings at 10,000 vertices: crossings are counted there, not judged.
+THIN = {"cgal-ChineseDragon-10kv"}
+
+
+def verdict(bar, good, case, detail=""):
+    return {"bar": bar, "good": bool(good), "case": case, "detail": detail}
+
+
+def label(case):
+    return " ".join([case.model, str(case.vertices)] + case.options)
+
+
+def refusal(case):
+    """A refusal counts only where V is below corners + 3 a loop + 4 a component, and must name a number that works."""
+    found = case.result
+    report = found["report"]
+    needed = report.get("corners", 0) + 3 * report.get("boundary_loops", 0) + 4 * report.get("components", 0)
+    excused = report.get("status") == "budget_too_small" and case.vertices < needed and found.get("retry") == 0
+    named = f", {found['named']} named" if "named" in found else ""
+    named += f", which gives exit code {found['retry']}" if found.get("retry") else ""
+    return verdict("exact", excused, label(case), f"exit code {found['code']}: {found['errors'][-120:]}{named}")
+
+
+def judge_smooth(case, mesh, compared):
+    doubtful = 100.0 * compared["flipped_triangles"] / max(1, mesh["faces"])
+    values = [("Q mean", mesh["q_mean"], mesh["q_mean"] >= 0.90),
+              ("under 30", mesh["pct_tri_min_angle_lt30"], mesh["pct_tri_min_angle_lt30"] <= 0.2),
+              ("Hausdorff", compared["hausdorff_pct"], compared["hausdorff_pct"] <= 0.8),
+              ("RMS", compared["rms_pct"], compared["rms_pct"] <= 0.06),
+              ("flips", compared["flipped_triangles_robust"], compared["flipped_triangles_robust"] == 0),
+              ("doubtful %", doubtful, doubtful <= 0.02)]
+    wrong = [f"{name} {value:.4g}" for name, value, good in values if not good]
+    return verdict("smooth", not wrong, label(case), ", ".join(wrong))
+
+
+def judge_lines(case):
+    compared = case.result.get("own", {}).get("compare")
+    if not compared:
+        return verdict("lines", False, label(case), "not measured")
+    values = [("distance over bar", compared["line_worst_ratio"], compared["line_worst_ratio"] <= 1),
+              ("straight %", compared["straight_to_rem_any_edge_max_pct"],
+               compared["straight_to_rem_any_edge_max_pct"] <= 1e-4),
+              ("corners missing", compared["corners_missing"], compared["corners_missing"] == 0)]
+    wrong = [f"{name} {value:.4g}" for name, value, good in values if not good]
+    return verdict("lines", not wrong, label(case), ", ".join(wrong))
+
+
+def judge_topology(case, original, mesh):
+    name = label(case)
+    same = [(key, original[key], mesh[key]) for key in ("genus", "boundary_loops", "components")
+            if original[key] != mesh[key]]
+    verdicts = [
+        verdict("exact", mesh["vertices"] == case.vertices and mesh["isolated_vertices"] == 0, name,
+                f"{mesh['vertices']} vertices, {mesh['isolated_vertices']} unused"),
+        verdict("manifold", mesh["edge_manifold"] and mesh["vertex_manifold"] and mesh["consistently_oriented"], name),
+        verdict("topology", not same, name, ", ".join(f"{key} {a} became {b}" for key, a, b in same)),
+        verdict("triangles", mesh["degenerate_triangles"] + mesh["degenerate_index_triangles"] +
+                mesh["duplicate_faces"] == 0, name,
+                f"{mesh['degenerate_triangles']} degenerate, {mesh['duplicate_faces']} duplicate"),
+    ]
+    if original.get("volume") and mesh.get("volume"):
+        verdicts.append(verdict("side", original["volume"] * mesh["volume"] > 0, name))
+    return verdicts
+
+
+def judge_case(case):
+    """The verdicts on one result."""
+    found = case.result
+    if found["code"] != 0:
+        return [refusal(case)]
+    judged = found.get("judged")
+    if judged is None:
+        return [verdict("exact", found["report"].get("output_vertices") == case.vertices, label(case))]
+    if not judged:
+        return [verdict("exact", False, label(case), "the judge could not read the result")]
+    original, mesh, compared = judged["original"], judged["remeshed"], judged["compare"]
+    verdicts = judge_topology(case, original, mesh)
+    if "smooth" in case.bars:
+        verdicts.append(judge_smooth(case, mesh, compared))
+    if "crossings" in case.bars and case.model not in THIN:
+        before, after = found["crossings"]
+        verdicts.append(verdict("crossings", after <= before, label(case), f"{before} became {after}"))
+    if {"sharp", "boundary"} & case.bars:
+        verdicts.append(judge_lines(case))
+    if "time" in case.bars:
+        seconds, megabytes = found["report"]["seconds"], found["report"]["arena_bytes"] / 1048576
+        verdicts.append(verdict("time", seconds <= 3 and megabytes <= 64, label(case), f"{seconds:.2f} s, {megabytes:.1f} MB"))
+    return verdicts
+
+
+def judge_bad(found):
+    name = found["model"]
+    code = found["code"]
+    wrong = []
+    if code is None:
+        wrong.append("did not end")
+    elif code == 0:
+        mesh = found["judged"]
+        if not mesh or mesh["vertices"] != 500 or not (mesh["edge_manifold"] and mesh["vertex_manifold"]):
+            wrong.append("result is not a manifold of 500 vertices")
+    elif not 10 <= code < 26 or len(found["errors"]) != 1:
+        wrong.append(f"exit code {code}: " + " ".join(found["errors"])[:200])
+    if not found["sanitized"]:
+        if found["seconds"] > 10:
+            wrong.append(f"{found['seconds']:.1f} s")
+        if found["peak"] > 64 * 1048576 + 64 * found["size"]:
+            wrong.append(f"{found['peak'] / 1048576:.0f} MB")
+    return [verdict("broken", not wrong, name, ", ".join(wrong))]
+
+
+HEADS = ["model", "V asked", "V got", "manif", "topol", "degen", "dup", "unused", "Q mean", "%<30", "Hausd %", "RMS %",
+         "flips", "doubt", "cross", "lines", "sec", "MB"]
+
+
+def table_row(case):
+    found = case.result
+    report = found["report"]
+    row = [" ".join([case.model] + case.options), str(case.vertices)]
+    judged = found.get("judged")
+    if found["code"] != 0:
+        row += [report.get("status", f"exit {found['code']}") + (f" ({found['named']})" if "named" in found else "")]
+        row += [""] * 13
+    elif not judged:
+        row += [str(report.get("output_vertices", "?"))] + [""] * 13
+    else:
+        a, b, c = judged["original"], judged["remeshed"], judged["compare"]
+        manifold = b["edge_manifold"] and b["vertex_manifold"] and b["consistently_oriented"]
+        same = all(a[key] == b[key] for key in ("genus", "boundary_loops", "components"))
+        before, after = found.get("crossings", (None, None))
+        lines = found.get("own", {}).get("compare", {}).get("line_worst_ratio") if {"sharp", "boundary"} & case.bars else None
+        row += [str(b["vertices"]), "yes" if manifold else "NO", "same" if same else "NO", str(b["degenerate_triangles"]),
+                str(b["duplicate_faces"]), str(b["isolated_vertices"]), f"{b['q_mean']:.3f}",
+                f"{b['pct_tri_min_angle_lt30']:.2f}", f"{c['hausdorff_pct']:.3f}", f"{c['rms_pct']:.4f}",
+                str(c["flipped_triangles_robust"]), str(c["flipped_triangles"]),
+                "" if after is None else f"{before}>{after}", "" if lines is None else f"{lines:.2f}"]
+    return row + [f"{report.get('seconds', found['wall']):.2f}", f"{report.get('arena_bytes', 0) / 1048576:.1f}"]
+
+
+def print_table(cases):
+    rows = [HEADS] + [table_row(case) for case in cases]
+    widths = [max(len(row[i]) for row in rows) for i in range(len(HEADS))]
+    for row in rows:
+        cells = [row[0].ljust(widths[0])] + [cell.rjust(width) for cell, width in zip(row[1:], widths[1:])]
+        print(" ".join(cells).rstrip())
+
+
+def summarize(verdicts, bars):
+    print()
+    for bar, text in bars.items():
+        mine = [v for v in verdicts if v["bar"] == bar]
+        if not mine:
+            continue
+        wrong = [v for v in mine if not v["good"]]
+        print(f"{'BAD' if wrong else 'ok '} {bar}: {len(mine) - len(wrong)} of {len(mine)}: {text}")
+        for v in wrong:
+            print(f"      {v['case']}: {v['detail']}" if v["detail"] else f"      {v['case']}")
+    failed = sum(not v["good"] for v in verdicts)
+    print(f"{len(verdicts) - failed} passed, {failed} failed")
+    return 1 if failed or not verdicts else 0

@@ -1,0 +1,150 @@
+#!/bin/sh
+# What a user of the program `isolod` relies on: exit codes, one-line errors that name the place, nothing half written.
+#
+#   sh tools/check_cli.sh PATH_TO_ISOLOD        ends with `N passed, N failed`
+set -u
+[ $# -eq 1 ] || { echo "usage: sh tools/check_cli.sh PATH_TO_ISOLOD" >&2; exit 2; }
+isolod="$(cd "$(dirname "$1")" && pwd)/$(basename "$1")"
+work="$(mktemp -d)" || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+
+passed=0
+failed=0
+ok() {
+  passed=$((passed + 1))
+  echo "ok  $1"
+}
+bad() {
+  failed=$((failed + 1))
+  echo "BAD $1: $2"
+  sed 's/^/      /' errors.txt
+}
+
+# runs NAME CODE COMMAND...: the command must end with this code.
+runs() {
+  name="$1" wanted="$2"
+  shift 2
+  "$@" >output.txt 2>errors.txt </dev/null
+  code=$?
+  if [ "$code" -eq "$wanted" ]; then ok "$name"; else bad "$name" "exit code $code, not $wanted"; fi
+}
+
+# refuses NAME CODE TEXT COMMAND...: ends with this code and exactly one line of error, which holds the text.
+refuses() {
+  name="$1" wanted="$2" text="$3"
+  shift 3
+  "$@" >output.txt 2>errors.txt </dev/null
+  code=$?
+  if [ "$code" -ne "$wanted" ]; then bad "$name" "exit code $code, not $wanted"
+  elif [ "$(wc -l <errors.txt)" -ne 1 ]; then bad "$name" "not one line of error"
+  elif ! grep -qF -- "$text" errors.txt; then bad "$name" "the error does not say '$text'"
+  elif ! grep -q '^isolod: ' errors.txt; then bad "$name" "the error does not begin with the program's name"
+  else ok "$name"; fi
+}
+
+# holds NAME COMMAND...: the command must succeed.
+holds() {
+  name="$1"
+  shift
+  : >errors.txt
+  if "$@" >/dev/null 2>errors.txt; then ok "$name"; else bad "$name" "does not hold: $*"; fi
+}
+
+no_leftovers() {
+  holds "$1" test -z "$(find . -name '*.part')"
+}
+
+# --- help and usage
+runs "help" 0 "$isolod" --help
+holds "help lists exit codes" grep -q budget_too_small output.txt
+runs "version" 0 "$isolod" --version
+for command in remesh info compare make validate; do
+  runs "help of $command" 0 "$isolod" $command --help
+  refuses "$command refuses an unknown option" 2 "--nonsense" "$isolod" $command --nonsense
+  refuses "$command wants its file" 2 "$command" "$isolod" $command
+done
+refuses "unknown command" 2 "remsh" "$isolod" remsh
+refuses "near miss is named" 2 "is --vertices meant" "$isolod" remesh in.obj --vertces 100 -o out.obj
+refuses "vertices are required" 2 "--vertices N is missing" "$isolod" remesh in.obj -o out.obj
+refuses "output is required" 2 "-o OUT is missing" "$isolod" remesh in.obj --vertices 100
+refuses "not a number" 2 "--vertices" "$isolod" remesh in.obj --vertices 10k -o out.obj
+refuses "negative count" 2 "--vertices" "$isolod" remesh in.obj --vertices -5 -o out.obj
+refuses "count too large" 2 "--vertices" "$isolod" remesh in.obj --vertices 99999999999999999999 -o out.obj
+refuses "angle out of range" 2 "--features" "$isolod" remesh in.obj --vertices 100 --features 200 -o out.obj
+refuses "unknown choice" 2 "paper" "$isolod" remesh in.obj --vertices 100 --weight papre -o out.obj
+refuses "given twice" 2 "--weld" "$isolod" remesh in.obj --weld --weld --vertices 100 -o out.obj
+refuses "value missing" 2 "--lloyd" "$isolod" remesh in.obj --vertices 100 --lloyd --weld -o out.obj
+refuses "two densities" 2 "--gamma" "$isolod" remesh in.obj --vertices 100 --gamma 1 --density d.txt -o out.obj
+refuses "word too many" 2 "b.obj" "$isolod" info a.obj b.obj
+
+# --- made shapes
+for shape in sphere torus knot bracket head plate lattice; do
+  runs "make $shape" 0 "$isolod" make $shape --triangles 3000 -o $shape.off
+  runs "validate $shape" 0 "$isolod" validate $shape.off
+done
+refuses "unknown shape" 2 "sphere" "$isolod" make shpere -o s.obj
+runs "make list" 0 "$isolod" make list
+
+# --- formats: every one gives the same mesh back
+for ending in obj off ply stl; do
+  runs "make as $ending" 0 "$isolod" make torus --triangles 800 -o again.$ending
+  runs "info on $ending" 0 "$isolod" info again.$ending
+  runs "compare with $ending" 0 "$isolod" compare again.obj again.$ending
+done
+refuses "unknown file type" 22 "out.xyz" "$isolod" make torus -o out.xyz
+refuses "glb is read only" 25 "out.glb" "$isolod" make torus -o out.glb
+
+# --- files that are not right
+refuses "no such file" 21 "absent.obj: " "$isolod" info absent.obj
+refuses "no such folder" 21 "absent/out.obj" "$isolod" make torus -o absent/out.obj
+refuses "a folder is no file" 21 "." "$isolod" remesh . --vertices 100 -o out.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 x\n' >broken.obj
+refuses "the line is named" 23 "broken.obj: line 4" "$isolod" remesh broken.obj --vertices 100 -o out.obj
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n' >short.off
+refuses "a short file" 24 "short.off: " "$isolod" remesh short.off --vertices 100 -o out.obj
+printf 'v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n' >nan.obj
+refuses "the vertex is named" 15 "nan.obj: vertex 2" "$isolod" remesh nan.obj --vertices 100 -o out.obj
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n' >flat.obj
+refuses "nothing with area" 12 "flat.obj: " "$isolod" remesh flat.obj --vertices 100 -o out.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n' >double.obj
+runs "validate finds a doubled triangle" 1 "$isolod" validate double.obj
+holds "nothing was written" test ! -e out.obj
+no_leftovers "nothing is left behind after errors"
+
+# --- remeshing
+runs "remesh" 0 "$isolod" remesh torus.off --vertices 700 --report run.json -o result.obj
+holds "exactly so many vertices" test "$(grep -c '^v ' result.obj)" -eq 700
+holds "the report names a hash" grep -Eq '"result_hash": "[0-9a-f]{16}"' run.json
+runs "the report is JSON" 0 python3 -m json.tool run.json
+runs "the result is valid" 0 "$isolod" validate result.obj
+runs "the result can be compared" 0 "$isolod" compare torus.off result.obj
+runs "the same again" 0 "$isolod" remesh torus.off --vertices 700 -o result2.obj
+holds "gives the same bytes" cmp result.obj result2.obj
+runs "quiet" 0 "$isolod" remesh torus.off --vertices 700 --quiet -o result2.obj
+holds "quiet says nothing" test ! -s output.txt -a ! -s errors.txt
+runs "no progress where no terminal is" 0 "$isolod" remesh torus.off --vertices 700 -o result2.obj
+holds "no progress was written" test ! -s errors.txt
+runs "features" 0 "$isolod" remesh bracket.off --vertices 1500 --features 40 -o result.ply
+runs "curvature" 0 "$isolod" remesh head.off --vertices 1500 --gamma 1 --smooth 5 -o result.stl
+awk 'NR > 2 && NR <= 2 + n { print 1 + $1 * $1 } NR == 2 { n = $1 }' torus.off >density.txt
+runs "given density" 0 "$isolod" remesh torus.off --vertices 700 --density density.txt -o result.off
+echo 1 >density.txt
+refuses "density of another mesh" 23 "density.txt: " "$isolod" remesh torus.off --vertices 700 --density density.txt -o x.off
+refuses "too few vertices" 17 "vertices work" "$isolod" remesh bracket.off --vertices 5 --features 40 -o x.off
+works="$(sed -n 's/.*: \([0-9]*\) vertices work.*/\1/p' errors.txt)"
+runs "the number that is named works" 0 "$isolod" remesh bracket.off --vertices "${works:-0}" --features 40 -o x.off
+refuses "too little memory" 18 "--memory" "$isolod" remesh torus.off --vertices 700 --memory 64K -o y.off
+refuses "one less does not" 17 "vertices work" "$isolod" remesh bracket.off --vertices $((${works:-1} - 1)) --features 40 -o y.off
+holds "a refused run writes nothing" test ! -e y.off
+runs "memory as said" 0 "$isolod" remesh torus.off --vertices 700 --memory 256M -o y.off
+echo precious >kept.obj
+refuses "a failed run" 15 "vertex 2" "$isolod" remesh nan.obj --vertices 100 -o kept.obj
+holds "leaves the old file" grep -q precious kept.obj
+ln -s real.obj link.obj
+runs "through a link" 0 "$isolod" remesh torus.off --vertices 700 --quiet -o link.obj
+holds "the link stays" test -L link.obj -a -s real.obj
+no_leftovers "nothing is left behind"
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,26 @@
+#!/bin/sh
+# Remeshes real and made models and has every result judged by other programs than the one that made it.
+#
+#   sh tools/check_models.sh                 every model, every bar
+#   sh tools/check_models.sh --ci            a subset for every change
+#   sh tools/check_models.sh --help          the choices: models, vertex counts, options
+#
+# Prints a table, then what passed and failed for each bar; the last line is `N passed, N failed`.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+. tools/common.sh
+
+want_build_tools
+want_command python3 python3
+install_missing || exit 1
+case " $* " in
+  *" --isolod "* | *" --help "* | *" -h "*) ;;
+  *)
+    mkdir -p build
+    cmake -S . -B build/models-build -G Ninja -DISOLOD_TESTS=OFF >build/models-build.log 2>&1 &&
+      cmake --build build/models-build -j "$(jobs_here)" --target isolod_cli >>build/models-build.log 2>&1 ||
+      { tail -n 60 build/models-build.log >&2; exit 1; }
+    set -- --isolod build/models-build/tools/isolod/isolod "$@"
+    ;;
+esac
+exec python3 tools/check_models.py "$@"

@@ -1,0 +1,156 @@
+// isolod compare: how well a remeshed surface stands for its original.
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+#include "isolod/commands.h"
+#include "isolod/failure.h"
+#include "isolod/mesh_facts.h"
+
+namespace tool {
+
+namespace {
+
+struct Comparison {
+  double diagonal = 0;
+  MeshFacts original, result;
+  measure::Distances distances;
+  measure::LineReport lines;
+  measure::Crossings original_crossings, result_crossings;
+  bool has_density = false;
+  measure::DensityFit density;
+};
+
+Comparison compare(const InputMesh& original, const InputMesh& result, const Arguments& arguments) {
+  measure::FeatureOptions sharp;
+  sharp.sharp_degrees = arguments.number("--features", sharp.sharp_degrees, 0, 180);
+  measure::DistanceOptions sampling;
+  sampling.samples = static_cast<std::size_t>(arguments.count("--samples", sampling.samples, 1000000000));
+  sampling.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const measure::Surface a = surface_of(original), b = surface_of(result);
+  Comparison comparison;
+  comparison.diagonal = measure::diagonal(a);
+  comparison.original = facts_of(original);
+  comparison.result = facts_of(result);
+  comparison.distances = measure::distances(a, b, sampling);
+  comparison.lines = measure::line_report(a, b, sharp);
+  comparison.original_crossings = measure::crossings(a);
+  comparison.result_crossings = measure::crossings(b);
+  if (arguments.has("--density")) {
+    const std::vector<double> wished = read_density_file(arguments.required_text("--density"), a.vertex_count);
+    comparison.has_density = true;
+    comparison.density = measure::density_fit(a, wished, b);
+  }
+  return comparison;
+}
+
+void add_lines(JsonWriter& json, const measure::LineReport& lines) {
+  json.add("sharp_to_rem_sharp_max_pct", lines.sharp_to_sharp.max);
+  json.add("sharp_to_rem_any_edge_max_pct", lines.sharp_to_edge.max);
+  json.add("rem_sharp_to_sharp_max_pct", lines.result_sharp_to_sharp.max);
+  json.add("boundary_to_rem_boundary_max_pct", lines.boundary_to_boundary.max);
+  json.add("rem_boundary_to_boundary_max_pct", lines.result_boundary_to_boundary.max);
+  json.add("straight_to_rem_any_edge_max_pct", lines.straight_to_edge);
+  json.add("line_worst_ratio", lines.worst_ratio);
+  json.add("corners", static_cast<std::uint64_t>(lines.corners));
+  json.add("corners_missing", static_cast<std::uint64_t>(lines.corners_missing));
+  json.add("corner_max_pct", lines.corner_distance);
+}
+
+void print_json(const Arguments& arguments, const Comparison& comparison) {
+  JsonWriter json;
+  json.add("original_file", arguments.operand(0));
+  json.add("remeshed_file", arguments.operand(1));
+  json.add("bbox_diagonal", comparison.diagonal);
+  add_facts(json, "original", comparison.original, comparison.diagonal);
+  add_facts(json, "remeshed", comparison.result, comparison.diagonal);
+  const measure::Distances& distances = comparison.distances;
+  json.open_object("compare");
+  json.add("hausdorff_pct", distances.hausdorff);
+  json.add("hausdorff_orig_to_rem_pct", distances.from_original.max);
+  json.add("hausdorff_rem_to_orig_pct", distances.from_result.max);
+  json.add("rms_pct", distances.rms);
+  json.add("rms_orig_to_rem_pct", distances.from_original.rms);
+  json.add("rms_rem_to_orig_pct", distances.from_result.rms);
+  json.add("flipped_triangles", static_cast<std::uint64_t>(distances.flipped));
+  json.add("flipped_triangles_robust", static_cast<std::uint64_t>(distances.flipped_robust));
+  add_lines(json, comparison.lines);
+  json.add("crossings_original", static_cast<std::uint64_t>(comparison.original_crossings.apart));
+  json.add("crossings_remeshed", static_cast<std::uint64_t>(comparison.result_crossings.apart));
+  if (comparison.has_density) {
+    json.add("density_spearman", comparison.density.spearman);
+    json.add("density_slope", comparison.density.slope);
+    json.add("mass_variation", comparison.density.mass_variation);
+  }
+  json.close_object();
+  std::fputs(json.finish().c_str(), stdout);
+}
+
+void print_surfaces(const Comparison& comparison) {
+  const measure::Topology &a = comparison.original.topology, &b = comparison.result.topology;
+  const measure::Quality &p = comparison.original.quality, &q = comparison.result.quality;
+  std::printf("                      %14s %14s\n", "original", "remeshed");
+  std::printf("vertices              %14zu %14zu\n", a.vertices, b.vertices);
+  std::printf("triangles             %14zu %14zu\n", a.triangles, b.triangles);
+  std::printf("components            %14zu %14zu\n", a.components, b.components);
+  std::printf("boundary loops        %14zu %14zu\n", a.loops, b.loops);
+  std::printf("genus                 %14ld %14ld\n", a.genus, b.genus);
+  std::printf("valid                 %14s %14s\n", first_fault(comparison.original).empty() ? "yes" : "no",
+              first_fault(comparison.result).empty() ? "yes" : "no");
+  std::printf("quality, mean         %14.4f %14.4f\n", p.q_mean, q.q_mean);
+  std::printf("quality, least        %14.4f %14.4f\n", p.q_min, q.q_min);
+  std::printf("least angle           %14.2f %14.2f\n", p.least_angle, q.least_angle);
+  std::printf("%% under 30 degrees    %14.3f %14.3f\n", p.triangles_under_30, q.triangles_under_30);
+  std::printf("%% of valence 6        %14.1f %14.1f\n", p.valence_6, q.valence_6);
+  std::printf("cell area, variation  %14.3f %14.3f\n", p.cell_variation, q.cell_variation);
+  std::printf("crossing pairs        %14zu %14zu\n", comparison.original_crossings.apart,
+              comparison.result_crossings.apart);
+}
+
+void print_fit(const Comparison& comparison) {
+  const measure::Distances& distances = comparison.distances;
+  const measure::LineReport& lines = comparison.lines;
+  std::printf("\ndistances in %% of the diagonal, %.9g\n", comparison.diagonal);
+  std::printf("Hausdorff             %14.4f\n", distances.hausdorff);
+  std::printf("RMS                   %14.5f\n", distances.rms);
+  std::printf("sharp lines to edges  %14.3g\n", lines.sharp_to_edge.max);
+  std::printf("boundary lines        %14.3g\n", lines.boundary_to_boundary.max);
+  std::printf("straight lines        %14.3g\n", lines.straight_to_edge);
+  std::printf("corners missing       %14zu of %zu\n", lines.corners_missing, lines.corners);
+  std::printf("flipped triangles     %14zu, %zu of them for certain\n", distances.flipped, distances.flipped_robust);
+  if (comparison.has_density) {
+    std::printf("density, rank order   %14.4f\n", comparison.density.spearman);
+    std::printf("density, slope        %14.4f\n", comparison.density.slope);
+    std::printf("cell mass, variation  %14.4f\n", comparison.density.mass_variation);
+  }
+}
+
+}  // namespace
+
+const CommandRule& compare_rule() {
+  static const CommandRule rule = {
+      "compare",
+      "ORIGINAL REMESHED",
+      2,
+      "Measures how well a remeshed surface stands for its original: quality, distance, lines, flips, crossings.",
+      {{"--features", "DEG", "edges sharper than this angle count as sharp; 40"},
+       {"--density", "FILE", "wished density, one number for each vertex of the original"},
+       {"--samples", "N", "points on each surface to measure distances from; 500000"},
+       {"--json", nullptr, "as JSON"}}};
+  return rule;
+}
+
+int command_compare(const Arguments& arguments) {
+  const InputMesh original = read_measurable(arguments.operand(0));
+  const InputMesh result = read_measurable(arguments.operand(1));
+  const Comparison comparison = compare(original, result, arguments);
+  if (arguments.has("--json")) {
+    print_json(arguments, comparison);
+  } else {
+    print_surfaces(comparison);
+    print_fit(comparison);
+  }
+  return exit_ok;
+}
+
+}  // namespace tool

@@ -1,0 +1,139 @@
+// isolod remesh: a mesh file in, an isotropic mesh file with an exact number of vertices out.
+#include <cstdio>
+#include <memory>
+
+#include "isolod/commands.h"
+#include "isolod/failure.h"
+#include "isolod/files.h"
+#include "isolod/json.h"
+#include "isolod/pictures.h"
+#include "isolod/progress.h"
+#include "isolod/report_json.h"
+
+namespace tool {
+
+namespace {
+
+using isolod::Options;
+
+constexpr std::uint64_t most_count = 0xffffffffu;
+
+Options options_from(const Arguments& arguments) {
+  Options options;
+  options.vertex_count = static_cast<std::uint32_t>(arguments.required_count("--vertices", most_count));
+  options.feature_angle = arguments.number("--features", options.feature_angle, 0, 180);
+  options.corner_angle = arguments.number("--corner", options.corner_angle, 0, 180);
+  options.gamma = arguments.number("--gamma", options.gamma, 0, 8);
+  if (arguments.has("--gamma")) options.density = isolod::DensitySource::curvature;
+  if (arguments.has("--density")) {
+    if (arguments.has("--gamma")) fail_usage("remesh: --density and --gamma exclude each other");
+    options.density = isolod::DensitySource::given;
+  }
+  options.smoothing_passes =
+      static_cast<std::uint32_t>(arguments.count("--smooth", options.smoothing_passes, most_count));
+  options.lloyd_iterations =
+      static_cast<std::uint32_t>(arguments.count("--lloyd", options.lloyd_iterations, most_count));
+  if (arguments.choice("--calibration", {"corrected", "paper"}, 0) == 1)
+    options.calibration = isolod::Calibration::paper;
+  if (arguments.choice("--weight", {"equal", "paper"}, 0) == 1) options.weight = isolod::LloydWeight::paper;
+  if (arguments.choice("--centroids", {"fast", "exact"}, 0) == 1) options.centroids = isolod::Centroids::exact;
+  options.weld = arguments.has("--weld");
+  options.validate = true;
+  return options;
+}
+
+/// What was changed before the work, so that nobody has to find out from the result.
+std::string repair_note(const isolod::RepairReport& repair) {
+  const struct {
+    std::uint32_t count;
+    const char* what;
+  } changes[] = {
+      {repair.welded_vertices, "vertices welded"},
+      {repair.unused_vertices, "unused vertices dropped"},
+      {repair.degenerate_triangles, "degenerate triangles removed"},
+      {repair.duplicate_triangles, "duplicate triangles removed"},
+      {repair.nonmanifold_edges_cut, "non-manifold edges cut apart"},
+      {repair.nonmanifold_vertices_cut, "non-manifold vertices cut apart"},
+      {repair.flipped_triangles, "triangles turned over"},
+      {repair.one_sided_cuts, "edges opened in one-sided components"},
+  };
+  std::string note;
+  for (const auto& change : changes) {
+    if (change.count == 0) continue;
+    note += (note.empty() ? "" : ", ") + std::to_string(change.count) + " " + change.what;
+  }
+  return note;
+}
+
+void print_summary(const std::string& input, const std::string& output, const RunOutcome& outcome) {
+  const std::string repaired = repair_note(outcome.report.repair);
+  if (!repaired.empty()) std::fprintf(stderr, "isolod: %s: repaired: %s\n", input.c_str(), repaired.c_str());
+  std::printf("%s: %zu vertices, %zu triangles, %.2f s, %.1f MiB of working memory, hash %s\n", output.c_str(),
+              outcome.mesh.vertex_count(), outcome.mesh.triangle_count(), outcome.seconds,
+              static_cast<double>(outcome.report.arena_bytes) / 1048576,
+              hex_digits(outcome.report.result_hash).c_str());
+}
+
+}  // namespace
+
+const CommandRule& remesh_rule() {
+  static const CommandRule rule = {
+      "remesh",
+      "IN",
+      1,
+      "Remeshes a file to an exact number of vertices.\n"
+      "The same input and options give the same bytes on every machine.",
+      {{"--vertices", "N", "vertices of the result: exactly so many"},
+       {"-o", "OUT", "the file to write, only when all went well"},
+       {"--features", "DEG", "edges sharper than this angle are kept; 0, the default: none"},
+       {"--corner", "DEG", "a kept line that turns by more than this has a corner there; 30"},
+       {"--gamma", "G", "denser where curved: the density is curvature to the power G, 0 to 8"},
+       {"--density", "FILE", "the density from a text file: one number for each vertex"},
+       {"--smooth", "N", "low-pass passes over the density; 0"},
+       {"--lloyd", "N", "iterations of the relaxation; 40"},
+       {"--weld", nullptr, "merge vertices at exactly equal positions first"},
+       {"--report", "FILE.json", "write what was done: stages, hashes, seconds, memory, repairs"},
+       {"--pictures", "DIR", "draw the stages into this folder as SVG"},
+       {"--memory", "SIZE", "the block to work in, such as 64M; chosen by itself when not given"},
+       {"--calibration", "paper|corrected", "how the budget becomes a sampling rate; corrected"},
+       {"--weight", "paper|equal", "which density weighs the centroids; equal"},
+       {"--centroids", "exact|fast", "how centroids are integrated; fast"},
+       {"--ascii", nullptr, "write PLY or STL as text"},
+       {"--quiet", nullptr, "no progress, no summary; errors only"}}};
+  return rule;
+}
+
+int command_remesh(const Arguments& arguments) {
+  const std::string& input = arguments.operand(0);
+  const std::string output = arguments.required_text("-o");
+  RunSettings settings;
+  settings.options = options_from(arguments);
+  settings.memory_bytes = arguments.bytes("--memory", 0);
+  settings.show_progress = !arguments.has("--quiet") && errors_go_to_terminal();
+  const isolod::WriteOptions format = write_options(output, arguments.has("--ascii"));
+  OutputFile output_file(output);
+  const bool pictures = arguments.has("--pictures");
+  if (pictures) make_folder(arguments.required_text("--pictures"));
+  std::unique_ptr<OutputFile> report;
+  if (arguments.has("--report")) report = std::make_unique<OutputFile>(arguments.required_text("--report"));
+
+  catch_interrupts();
+  InputMesh mesh = read_mesh_file(input);
+  if (arguments.has("--density")) {
+    mesh.vertex_density = read_density_file(arguments.required_text("--density"), mesh.loaded.vertex_count());
+  }
+  const isolod::MeshView view = mesh.view();
+  const RunOutcome outcome = run_remesh(view, settings);
+  if (report != nullptr) {
+    const std::string text = report_json({input, output}, view, settings, outcome);
+    report->write(text.data(), text.size());
+    report->commit();
+  }
+  if (!outcome.status.is_ok()) fail_status(input, outcome.status);
+  write_mesh_file(output_file, format, outcome.mesh);
+  if (!arguments.has("--quiet")) print_summary(input, output, outcome);
+  if (pictures) draw_pictures(arguments.required_text("--pictures"), view, settings, outcome);
+  return exit_ok;
+}
+
+}  // namespace tool

@@ -1,0 +1,28 @@
+// The commands of the program, one file each. Each takes the words behind its name and gives the exit code.
+#pragma once
+
+#include "isolod/arguments.h"
+
+namespace tool {
+
+struct Command {
+  const CommandRule& (*rule)();
+  int (*run)(const Arguments& arguments);
+};
+
+const CommandRule& remesh_rule();
+int command_remesh(const Arguments& arguments);
+
+const CommandRule& info_rule();
+int command_info(const Arguments& arguments);
+
+const CommandRule& compare_rule();
+int command_compare(const Arguments& arguments);
+
+const CommandRule& make_rule();
+int command_make(const Arguments& arguments);
+
+const CommandRule& validate_rule();
+int command_validate(const Arguments& arguments);
+
+}  // namespace tool

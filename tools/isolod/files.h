@@ -1,0 +1,37 @@
+// Meshes from and to files.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "isolod/io.h"
+#include "isolod/output_file.h"
+#include "isolod/run.h"
+
+namespace tool {
+
+/// A mesh as it came from its file, with the memory that it lies in.
+struct InputMesh {
+  std::unique_ptr<unsigned char[]> block;
+  isolod::LoadedMesh loaded;
+  std::vector<double> vertex_density;  ///< empty, or one a vertex
+
+  isolod::MeshView view() const;
+};
+
+/// The format is told by the name's ending, or by the content where the ending tells nothing. Throws a failure that
+/// names the file and the place in it.
+InputMesh read_mesh_file(const std::string& path);
+
+/// One number a vertex, separated by blanks or line ends. Throws a failure that names the line.
+std::vector<double> read_density_file(const std::string& path, std::size_t vertex_count);
+
+/// How to write under that name. Throws where no mesh could be written so: before the work, not after it.
+isolod::WriteOptions write_options(const std::string& path, bool ascii);
+
+/// Writes and commits. The file is opened long before, so that a closed folder is known before the work.
+void write_mesh_file(OutputFile& file, const isolod::WriteOptions& options, const TriangleMesh& mesh);
+
+}  // namespace tool

@@ -1,0 +1,91 @@
+#include "isolod/run.h"
+
+#include <memory>
+#include <new>
+
+#include "isolod/progress.h"
+
+namespace tool {
+
+namespace {
+
+using isolod::Status;
+
+bool take_begin(void* context, std::size_t vertex_count, std::size_t triangle_count) {
+  TriangleMesh& mesh = *static_cast<TriangleMesh*>(context);
+  mesh.positions.reserve(3 * vertex_count);
+  mesh.triangles.reserve(3 * triangle_count);
+  return true;
+}
+
+bool take_vertices(void* context, const double* xyz, std::size_t count) {
+  TriangleMesh& mesh = *static_cast<TriangleMesh*>(context);
+  mesh.positions.insert(mesh.positions.end(), xyz, xyz + 3 * count);
+  return true;
+}
+
+bool take_triangles(void* context, const std::uint32_t* corners, std::size_t count) {
+  TriangleMesh& mesh = *static_cast<TriangleMesh*>(context);
+  mesh.triangles.insert(mesh.triangles.end(), corners, corners + 3 * count);
+  return true;
+}
+
+bool show_progress(void* context, const char* stage, double share) {
+  static_cast<ProgressLine*>(context)->update(stage, share);
+  return !interrupted();
+}
+
+double clock_of_run(void*) { return now_seconds(); }
+
+/// One attempt in a block of that many bytes. The block is not cleared: pages that are never written cost nothing.
+void attempt(const isolod::MeshView& view, const RunSettings& settings, std::size_t bytes, RunOutcome& outcome) {
+  outcome = RunOutcome();
+  outcome.block_bytes = bytes;
+  const std::unique_ptr<unsigned char[]> block(new (std::nothrow) unsigned char[bytes]);
+  if (block == nullptr) {
+    outcome.status = Status(Status::out_of_memory, isolod::Element::byte, bytes);
+    return;
+  }
+  isolod::Arena arena(block.get(), bytes);
+  ProgressLine line(settings.show_progress);
+  isolod::Hooks hooks;
+  hooks.context = &line;
+  hooks.progress = show_progress;
+  hooks.clock = clock_of_run;
+  isolod::MeshSink sink;
+  sink.context = &outcome.mesh;
+  sink.begin = take_begin;
+  sink.vertices = take_vertices;
+  sink.triangles = take_triangles;
+  const double start = now_seconds();
+  outcome.status = isolod::remesh(view, settings.options, sink, &outcome.report, arena, hooks);
+  outcome.seconds = now_seconds() - start;
+}
+
+}  // namespace
+
+isolod::MeshView TriangleMesh::view() const {
+  isolod::MeshView view;
+  view.positions = positions.data();
+  view.vertex_count = vertex_count();
+  view.indices = triangles.data();
+  view.triangle_count = triangle_count();
+  return view;
+}
+
+RunOutcome run_remesh(const isolod::MeshView& view, const RunSettings& settings) {
+  RunOutcome outcome;
+  if (settings.memory_bytes != 0) {
+    attempt(view, settings, settings.memory_bytes, outcome);
+    return outcome;
+  }
+  const std::size_t bytes = isolod::required_memory(view.vertex_count, view.triangle_count, settings.options);
+  attempt(view, settings, bytes, outcome);
+  const Status& status = outcome.status;
+  if (status == Status::out_of_memory && status.element == isolod::Element::byte && status.value > bytes) {
+    attempt(view, settings, static_cast<std::size_t>(status.value), outcome);
+  }
+  return outcome;
+}
+
+}  // namespace tool

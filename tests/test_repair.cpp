@@ -292,7 +292,7 @@ TEST_CASE("repair: a closed mesh with flat triangles stays closed") {
     if (random.below(2) == 0) soup = soup.shuffled(random);
     for (const double scale : {1.0, 0x1p-30, 0x1p40}) {
       const Outcome out = run(soup.scaled(scale));
-      INFO("seed ", seed, " ", name(out.finding.defect), " loops ", out.topology.boundary_loops);
+      INFO("seed ", seed, " ", std::string(name(out.finding.defect)), " loops ", out.topology.boundary_loops);
       REQUIRE(out.valid());
       REQUIRE(out.report.degenerate_triangles >= 1);
       REQUIRE(out.topology.components == 1);
@@ -491,7 +491,7 @@ TEST_CASE("repair: random soups come out manifold with every triangle that has a
     Random random(seed);
     const Soup soup = random_soup(random, false);
     const Outcome out = run(soup);
-    INFO("seed ", seed, " ", name(out.finding.defect), " ", out.finding.element);
+    INFO("seed ", seed, " ", std::string(name(out.finding.defect)), " ", out.finding.element);
     if (out.status == Status::empty_mesh) continue;
     REQUIRE(out.valid());
     // Every set of three different corners is there once, in the caller's order, at the caller's places.
@@ -520,7 +520,7 @@ TEST_CASE("repair: random soups on a small grid, with flat triangles and equal p
     const Soup soup = random_soup(random, true);
     const bool weld = random.below(2) == 0;
     const Outcome out = run(soup, weld);
-    INFO("seed ", seed, " ", name(out.finding.defect), " ", out.finding.element);
+    INFO("seed ", seed, " ", std::string(name(out.finding.defect)), " ", out.finding.element);
     if (out.status == Status::empty_mesh) {
       REQUIRE(soup.area() == 0);
       continue;

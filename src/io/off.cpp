@@ -33,10 +33,12 @@ class OffReader {
  private:
   Status read_header() {
     if (!skip_to_content(cursor_)) return fail_at(cursor_);
-    if (*cursor_.at < '0' || *cursor_.at > '9') ISOLOD_TRY(read_keyword());
+    TextCursor counts = cursor_;
+    std::int64_t vertices = 0, faces = 0;
+    const bool has_keyword = !take_integer(counts, vertices);
+    if (has_keyword) ISOLOD_TRY(read_keyword());
     if (!skip_to_content(cursor_)) return fail_at(cursor_);
     if (*cursor_.at == 'B') return fail(Status::unsupported_feature, Element::line, cursor_.line);
-    std::int64_t vertices = 0, faces = 0;
     if (!take_integer(cursor_, vertices) || vertices < 0) return fail_at(cursor_);
     if (!skip_to_content(cursor_) || !take_integer(cursor_, faces) || faces < 0) return fail_at(cursor_);
     constexpr std::uint64_t vertex_bytes = 6, face_bytes = 2;  // "0 0 0" and "3", each with its line's end

@@ -46,7 +46,7 @@ struct PlyElement {
   PlyKind kind;
   std::uint64_t count;
   Span<PlyProperty> properties;
-  TextCursor start;  ///< of its rows
+  TextCursor start;  ///< of its rows; before they are found, its line in the header
 };
 
 /// Scalars one after the other, from text or bytes.
@@ -209,6 +209,7 @@ class PlyHeader {
                    : equal(word, "tristrips") ? PlyKind::strips
                                               : PlyKind::other;
     element.count = static_cast<std::uint64_t>(count);
+    element.start = cursor;
     element.properties = properties_.slice(property_count_, 0);
     elements_[element_count_++] = element;
     return {};
@@ -267,7 +268,9 @@ class PlyReader {
     for (PlyElement& element : header.elements()) {
       if (element.kind == PlyKind::vertex) {
         const bool is_second = vertices != nullptr;
-        if (is_second || !has_coordinates(element)) return source_.fail_here(Status::syntax_error);
+        if (is_second || !has_coordinates(element)) {
+          return fail(Status::syntax_error, Element::line, element.start.line);
+        }
         vertices = &element;
       }
       element.start = source_.cursor;

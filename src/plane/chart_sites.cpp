@@ -141,13 +141,14 @@ class SiteBuilder {
     return v;
   }
 
-  /// From the far end to the near one, so that the slot of h always holds the part that is still whole.
+  /// From the far end to the near one, so that one halfedge always holds the part that is still whole.
   void put_on_edge(HalfedgeId h) {
     const std::uint32_t edge = line_place(h);
     const bool forward = samples_.backbones->edge[edge] == flat_.chart.on_surface(h);
     const Range range = samples_on(edge);
     const Halfedges& chart = flat_.chart.mesh;
     const VertexId a = chart.origin[h], b = chart.target(h);
+    const HalfedgeId whole = find_halfedge(plane_.t.mesh, a, b);  // splits elsewhere may have moved it
     for (std::uint32_t k = range.first; k < range.last; ++k) {
       const std::uint32_t i = forward ? range.last - 1 - (k - range.first) : k;
       const double along = samples_.lines->place[i].along;
@@ -161,7 +162,7 @@ class SiteBuilder {
         }
       }
       const Vec2 p = (1 - part) * flat_.uv[a] + part * flat_.uv[b];
-      split_edge(plane_.t, h, add_vertex(p, sample, face(h)));
+      split_edge(plane_.t, whole, add_vertex(p, sample, face(h)));
     }
   }
 

@@ -86,8 +86,9 @@ void triangle_patch(Builder& builder, const Point* points, std::array<int, 3> id
   };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; i + j < n; ++j) {
-      builder.triangle(vertex(i, j), vertex(i + 1, j), vertex(i, j + 1));
-      if (i + j + 1 < n) builder.triangle(vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1));
+      const std::uint32_t a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i, j + 1);
+      builder.triangle(a, b, c);
+      if (i + j + 1 < n) builder.triangle(b, vertex(i + 1, j + 1), c);
     }
   }
 }
@@ -144,9 +145,10 @@ void hexagon_disk(Builder& builder, int n, bool front, PointAt&& point) {
   for (int k = 0; k < n; ++k) {
     for (int side = 0; side < 6; ++side) {
       for (int j = 0; j <= k; ++j) {
-        const std::uint32_t outer = vertex(k + 1, side * (k + 1) + j), next = vertex(k + 1, side * (k + 1) + j + 1);
-        emit(vertex(k, side * k + j), outer, next);
-        if (j < k) emit(vertex(k, side * k + j), next, vertex(k, side * k + j + 1));
+        const std::uint32_t inner = vertex(k, side * k + j), outer = vertex(k + 1, side * (k + 1) + j);
+        const std::uint32_t next = vertex(k + 1, side * (k + 1) + j + 1);
+        emit(inner, outer, next);
+        if (j < k) emit(inner, next, vertex(k, side * k + j + 1));
       }
     }
   }

@@ -9,6 +9,7 @@ BARS = {
     "smooth": "Q mean >= 0.90, under 30 degrees <= 0.2 %, Hausdorff <= 0.8 %, RMS <= 0.06 %, no flip, <= 0.02 % doubtful ones",
     "crossings": "no more crossing pairs than the input has",
     "lines": "sharp and boundary lines within max(0.02 %, 1.2 sagittas) of edges, straight ones 1e-6, corners in place",
+    "density": "where curvature sets the density: rank correlation of wished and realised >= 0.9",
     "time": "bunny to 10,000 vertices in 3 s and 64 MB",
     "broken": "a clean error or a repair, under 10 s, in memory of a small multiple of the file",
 }
@@ -97,6 +98,9 @@ def judge_case(case):
         verdicts.append(verdict("crossings", after <= before, label(case), f"{before} became {after}"))
     if {"sharp", "boundary"} & case.bars:
         verdicts.append(judge_lines(case))
+    if "density" in case.bars:
+        spearman = found.get("own", {}).get("compare", {}).get("density_spearman")
+        verdicts.append(verdict("density", spearman is not None and spearman >= 0.9, label(case), f"{spearman}"))
     if "time" in case.bars:
         seconds, megabytes = found["report"]["seconds"], found["report"]["arena_bytes"] / 1048576
         verdicts.append(verdict("time", seconds <= 3 and megabytes <= 64, label(case), f"{seconds:.2f} s, {megabytes:.1f} MB"))

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from check_bars import BARS, judge_bad, judge_case, print_table, summarize
+from check_density import wished_density
 
 TOP = Path(__file__).resolve().parent.parent
 SMOOTH = ["cgal-bunny00", "gpjs-kitten", "gpjs-gargoyle", "made-sphere", "made-torus", "made-knot", "made-head"]
@@ -112,7 +113,8 @@ def plan(args, models):
             cases.append(Case(name, path, original, 10000, ["--features", "40"] + more, {"topology", "sharp", "crossings"}))
         if 10000 in counts and name in CURVED and not args.features:
             for gamma in ["1"] if args.ci else ["1", "2", "2.5"]:
-                cases.append(Case(name, path, original, 10000, ["--gamma", gamma, "--smooth", "10"] + more, {"topology"}))
+                cases.append(Case(name, path, original, 10000, ["--gamma", gamma, "--smooth", "10"] + more,
+                                  {"topology", "density"}))
     return cases
 
 
@@ -149,18 +151,29 @@ def remesh(args, case, stem, vertices):
             "command": " ".join(command)}
 
 
+def option(case, name):
+    """The word behind an option of the case, or None."""
+    return case.options[case.options.index(name) + 1] if name in case.options else None
+
+
 def measure(args, judge, case, found, known):
     """What the judges say of one result; `known` remembers the originals' crossings."""
-    sharp = case.options[case.options.index("--features") + 1] if "--features" in case.options else "40"
+    # 180: no edge is sharper, so only boundaries are lines.
+    sharp = option(case, "--features") or ("180" if "boundary" in case.bars else "40")
     samples = "100000" if args.ci else "500000"
     pair = [str(case.original), str(found["file"])]
     if judge:
         run = subprocess.run([judge["referee"], *pair, "--compact", "--sharp", sharp, "--samples", samples],
                              capture_output=True, text=True)
         found["judged"] = json.loads(run.stdout) if run.returncode == 0 else {}
-    if not judge or {"sharp", "boundary"} & case.bars:
-        run = subprocess.run([args.isolod, "compare", *pair, "--features", sharp, "--samples", samples, "--json"],
-                             capture_output=True, text=True)
+    if not judge or {"sharp", "boundary", "density"} & case.bars:
+        command = [args.isolod, "compare", *pair, "--features", sharp, "--samples", samples, "--json"]
+        if "density" in case.bars:
+            wished = wished_density(case.original, float(option(case, "--gamma")), int(option(case, "--smooth")))
+            density = found["file"].with_suffix(".density.txt")
+            density.write_text("\n".join(map(repr, wished)) + "\n")
+            command += ["--density", str(density)]
+        run = subprocess.run(command, capture_output=True, text=True)
         found["own"] = json.loads(run.stdout) if run.returncode == 0 else {}
         found.setdefault("judged", found["own"])
     if "crossings" not in case.bars:

@@ -85,7 +85,9 @@ class Remesher {
   ResultMesh result() const;  ///< once done
   const Report& report() const;
 
-  struct State;  ///< of the library's own; lies in the arena
+  struct State;
+  /// What the run holds between two calls, for tools that draw and test the stages (pipeline/state.h). Null before `begin`.
+  const State* state() const { return state_; }
 
  private:
   State* state_ = nullptr;

@@ -89,11 +89,21 @@ class ObjReader {
     return ObjLine::material;
   }
 
+  /// To the next line. Every pass must find the same lines, or a count would not hold.
+  static void end_line(TextCursor& cursor, ObjLine kind) {
+    if (kind == ObjLine::vertex || kind == ObjLine::face) {
+      skip_joined_line(cursor);
+    } else {
+      skip_line(cursor);
+    }
+  }
+
   static bool ends_word(unsigned char c) { return is_blank(c) || is_line_end(c) || c == '\\'; }
 
   Status count_lines() {
-    for (TextCursor cursor = start_; !cursor.at_end(); skip_line(cursor)) {
-      const ObjLine kind = begin_line(cursor);
+    ObjLine kind = ObjLine::other;
+    for (TextCursor cursor = start_; !cursor.at_end(); end_line(cursor, kind)) {
+      kind = begin_line(cursor);
       if (kind == ObjLine::vertex) ++vertex_count_;
       if (kind == ObjLine::material) ++material_lines_;
       if (kind != ObjLine::face) continue;
@@ -117,8 +127,10 @@ class ObjReader {
 
   Status read_vertices() {
     double* to = mesh_.positions.data;
-    for (TextCursor cursor = start_; !cursor.at_end(); skip_line(cursor)) {
-      if (begin_line(cursor) != ObjLine::vertex) continue;
+    ObjLine kind = ObjLine::other;
+    for (TextCursor cursor = start_; !cursor.at_end(); end_line(cursor, kind)) {
+      kind = begin_line(cursor);
+      if (kind != ObjLine::vertex) continue;
       for (int i = 0; i < 3; ++i) {
         skip_joined_blanks(cursor);
         if (!take_number(cursor, *to++)) return fail_at(cursor);
@@ -130,8 +142,9 @@ class ObjReader {
   Status read_faces(FaceFiller& faces) {
     std::uint64_t vertices_so_far = 0;
     std::uint32_t material = 0;
-    for (TextCursor cursor = start_; !cursor.at_end(); skip_line(cursor)) {
-      const ObjLine kind = begin_line(cursor);
+    ObjLine kind = ObjLine::other;
+    for (TextCursor cursor = start_; !cursor.at_end(); end_line(cursor, kind)) {
+      kind = begin_line(cursor);
       if (kind == ObjLine::vertex) ++vertices_so_far;
       if (kind == ObjLine::material) material = materials_.number(rest_of_line(cursor));
       if (kind != ObjLine::face) continue;

@@ -54,6 +54,20 @@ inline void skip_joined_blanks(TextCursor& cursor) {
   }
 }
 
+/// To the beginning of the line after this one and those that are joined to it. A comment's end is not joined.
+inline void skip_joined_line(TextCursor& cursor) {
+  bool is_comment = false, joins = false;
+  for (; cursor.at != cursor.end; joins = !is_comment && cursor.at[-1] == '\\') {
+    if (is_line_end(*cursor.at)) {
+      skip_line_end(cursor);
+      if (!joins) return;
+      continue;
+    }
+    is_comment = is_comment || *cursor.at == '#';
+    ++cursor.at;
+  }
+}
+
 /// Over empty lines and comments to the next thing that is written; false at the end of the file.
 inline bool skip_to_content(TextCursor& cursor) {
   for (;;) {

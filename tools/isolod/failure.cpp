@@ -43,6 +43,13 @@ const Meaning* meaning_of(Status::Code code) {
   return nullptr;
 }
 
+/// The word on the command line for a member of `isolod::Options`, by its place there.
+std::string option_name(std::uint64_t ordinal) {
+  constexpr const char* names[] = {"--vertices",    "--features", "--corner",    "--density", "--gamma", "--smooth",
+                                   "--calibration", "--weight",   "--centroids", "--lloyd",   "--weld"};
+  return ordinal < sizeof names / sizeof names[0] ? names[ordinal] : std::to_string(ordinal);
+}
+
 std::string place_of(const Status& status) {
   const std::string number = std::to_string(status.value);
   switch (status.element) {
@@ -55,7 +62,7 @@ std::string place_of(const Status& status) {
     case Element::byte:
       return status.code == Status::out_of_memory ? "" : "byte " + number + ": ";
     case Element::option:
-      return "option " + number + ": ";
+      return "option " + option_name(status.value) + ": ";
     default:
       return "";
   }

@@ -35,6 +35,8 @@ TEST_CASE("obj: corner forms, relative indices, joined lines, and vertices after
     CHECK(loaded.materials.empty());
     CHECK(!loaded.welded);
   }
+  CHECK(load("v 0 0 0 \\\nv 9 9 9\n" + three + "f 2 3 4 # \\\nf 4 3 2\n", FileFormat::obj).triangles ==
+        Triangles{1, 2, 3, 3, 2, 1});
   CHECK(load("f 1 2 3\n" + three, FileFormat::obj).triangles == Triangles{0, 1, 2});
   CHECK(load("\xEF\xBB\xBF" + three + "f 1 2 3", FileFormat::obj).status.is_ok());
   CHECK(load("v 1 2 3 0.5\rv 4 5 6 1 0 0\rv 7 \\\r\n8 9\rf 3 2 1\r", FileFormat::obj).positions ==
@@ -58,6 +60,7 @@ TEST_CASE("obj: failures name their line") {
   check_fails(three + "f 1 2 3x\n", FileFormat::obj, Status::syntax_error, 4);
   check_fails(three + "f 1 2 3/x\n", FileFormat::obj, Status::syntax_error, 4);
   check_fails(three + "\nf 1 2 \\3 \\\n", FileFormat::obj, Status::syntax_error, 5);
+  check_fails(three + "f 1 2 3 \\\nv 9 9 9\n", FileFormat::obj, Status::syntax_error, 5);  // no line of its own
   check_fails("v 0 0\nf 1 1 1\n", FileFormat::obj, Status::syntax_error, 1);
   check_fails("v 0 0 3.1+e2\nf 1 1 1\n", FileFormat::obj, Status::syntax_error, 1);
   check_fails("v 0 0 0x10\nf 1 1 1\n", FileFormat::obj, Status::syntax_error, 1);

@@ -413,6 +413,66 @@ TEST_CASE("repair: sheets on one edge pair up as solids do") {
   }
 }
 
+TEST_CASE("repair: the surface of random voxels comes out closed") {
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    Random random(seed);
+    bool full[5][5][5] = {};
+    for (int i = 0; i < 3 + static_cast<int>(seed % 25); ++i) {
+      full[1 + random.below(3)][1 + random.below(3)][1 + random.below(3)] = true;
+    }
+    Soup soup;
+    for (int z = 0; z < 64; ++z) soup.vertex(z / 16, z / 4 % 4, z % 4);
+    const auto quad = [&soup](int corner, int u, int v) {
+      const std::uint32_t a = static_cast<std::uint32_t>(corner), b = static_cast<std::uint32_t>(corner + u);
+      const std::uint32_t c = static_cast<std::uint32_t>(corner + u + v), d = static_cast<std::uint32_t>(corner + v);
+      soup.face(a, b, c), soup.face(a, c, d);
+    };
+    for (int x = 1; x < 5; ++x) {
+      for (int y = 1; y < 5; ++y) {
+        for (int z = 1; z < 5; ++z) {
+          const int corner = (x - 1) * 16 + (y - 1) * 4 + z - 1;
+          const auto between = [&](bool here, bool before, int u, int v) {
+            if (here && !before) quad(corner, v, u);
+            if (before && !here) quad(corner, u, v);
+          };
+          between(full[x][y][z], full[x - 1][y][z], 4, 1);
+          between(full[x][y][z], full[x][y - 1][z], 1, 16);
+          between(full[x][y][z], full[x][y][z - 1], 16, 4);
+        }
+      }
+    }
+    if (seed % 3 == 1) soup = soup.shuffled(random);
+    if (seed % 3 == 2) {
+      for (Soup::Triangle& t : soup.triangles) std::swap(t[0], t[2]);
+    }
+    const Outcome out = run(soup);
+    INFO("seed ", seed);
+    REQUIRE(out.valid());
+    REQUIRE(out.topology.boundary_loops == 0);
+    REQUIRE(out.report.flipped_triangles == 0);
+    REQUIRE(out.report.duplicate_triangles == 0);
+    REQUIRE(out.soup.triangles.size() == soup.triangles.size());
+  }
+}
+
+TEST_CASE("repair: sheets that run in one direction around an edge are glued two by two") {
+  Soup soup;
+  soup.vertex(0, 0, 0), soup.vertex(0, 0, 3);
+  const std::uint32_t n = 7;
+  const double x[n] = {9, 5, -2, -8, -8, -2, 5}, y[n] = {0, 7, 8, 3, -3, -8, -7};
+  for (std::uint32_t i = 0; i < n; ++i) {
+    soup.vertex(x[i], y[i], 0), soup.vertex(x[i], y[i], 3);
+    soup.face(0, 1, 2 + 2 * i), soup.face(1, 3 + 2 * i, 2 + 2 * i);
+  }
+  const Outcome out = run(soup);
+  CHECK(out.valid());
+  CHECK(out.topology.components == 4);
+  CHECK(out.topology.boundary_loops == 4);
+  CHECK(out.report.flipped_triangles == 6);
+  CHECK(out.report.one_sided_cuts == 0);
+  CHECK(out.report.nonmanifold_edges_cut == 1);
+}
+
 TEST_CASE("repair: the odd triangle on an edge becomes boundary") {
   Soup soup;
   support::add_cube(soup, {0, 0, 0}, {1, 1, 1});

@@ -57,14 +57,17 @@ inline void skip_joined_blanks(TextCursor& cursor) {
 /// To the beginning of the line after this one and those that are joined to it. A comment's end is not joined.
 inline void skip_joined_line(TextCursor& cursor) {
   bool is_comment = false, joins = false;
-  for (; cursor.at != cursor.end; joins = !is_comment && cursor.at[-1] == '\\') {
-    if (is_line_end(*cursor.at)) {
+  while (cursor.at != cursor.end) {
+    const unsigned char c = *cursor.at;
+    if (is_line_end(c)) {
       skip_line_end(cursor);
       if (!joins) return;
-      continue;
+      joins = false;
+    } else {
+      is_comment = is_comment || c == '#';
+      joins = c == '\\' && !is_comment;
+      ++cursor.at;
     }
-    is_comment = is_comment || *cursor.at == '#';
-    ++cursor.at;
   }
 }
 

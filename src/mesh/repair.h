@@ -17,8 +17,9 @@
 //   6. Triangles are turned over to agree across the edges with two triangles: the majority of a patch wins, at a tie
 //      its first triangle. Where a patch has no two sides, the edges at which a breadth-first search from its first
 //      triangle meets itself in disagreement are opened.
-//   7. The triangles around an edge with more than two are paired as the faces of solids: each with the next one
-//      around the edge that closes the solid in front of it. Who finds no partner becomes boundary.
+//   7. The triangles around an edge with more than two are paired as the faces of solids: each with the next one around
+//      the edge that closes the solid in front of it. Of those left over, neighbours are glued where turning over
+//      patches makes them agree (rule 6 then holds for what is glued); the others become boundary.
 //   8. A vertex whose triangles form several fans is copied, one copy a fan.
 //   9. Vertices that no triangle uses go.
 // Triangles come out in the caller's order (a triangle made by splitting takes the place of the flat one but names the
@@ -87,6 +88,7 @@ class Repair {
 
   static constexpr std::uint8_t dead = 1, flat = 2, moved = 4, turned = 8, reached = 16;
   static constexpr std::uint8_t corner_seen[3] = {32, 64, 128};
+  static constexpr std::uint8_t against = 32;  // before corners are seen
 
   Status run_phase();
   Status check_positions();
@@ -107,13 +109,17 @@ class Repair {
   VertexId lower_end(HalfedgeId h) const;
   VertexId upper_end(HalfedgeId h) const;
   VertexId apex(HalfedgeId h) const;
+  bool sort_few_edges(HalfedgeId& first);
   HalfedgeId sort_edges(HalfedgeId first);
   bool edge_before(HalfedgeId g, HalfedgeId h) const;
   void make_rings(HalfedgeId first);
-  Status pair_edges();
+  // repair_pair.cpp
   struct Sheet;
   struct SheetPairing;
-  void pair_ring(HalfedgeId h, SheetPairing& pairing);
+  struct PatchSets;
+  Status pair_edges();
+  std::size_t pair_ring(HalfedgeId h, SheetPairing& pairing);
+  Status glue_patches(bool& glued);
   // repair_sheets.cpp
   Status orient_triangles();
   void orient_patch(FaceId seed, Span<FaceId> queue);

@@ -2,8 +2,8 @@
 //
 // A ring links the halfedges on one edge, whatever their number and direction, in a circle through `ring_`. Rings are
 // found without a buffer: a list of halfedges for each lower vertex, sorted by (upper vertex, apex, index), a long one
-// with a merge sort for lists (Knuth, The Art of Computer Programming 3, 5.2.4, algorithm L). Neighbours in that order with
-// the same apex are duplicates. O(n log n) time; 12 bytes a triangle and 4 a vertex.
+// with a merge sort for lists (Knuth, The Art of Computer Programming 3, 5.2.4, algorithm L). Neighbours in that order
+// with the same apex are duplicates. O(n log n) time; 12 bytes a triangle and 4 a vertex.
 #include "base/status.h"
 #include "mesh/halfedge.h"
 #include "mesh/repair.h"

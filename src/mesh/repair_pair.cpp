@@ -5,9 +5,9 @@
 // What is left over on an edge runs in one direction. Two that are neighbours there are glued where turning over whole
 // patches makes them agree, which disjoint sets of triangles with a parity tell.
 //
-// O(k log k) for k triangles on an edge. Scratch: 36 bytes for each triangle on the fullest edge, 4 for each halfedge on
-// a crowded edge; 4 a triangle while patches are glued. Angles are rounded: where two sheets are closer than that, the
-// pairing depends on the rounding (the same everywhere), and the result is a manifold nevertheless.
+// O(k log k) for k triangles on an edge. Scratch: 36 bytes for each triangle on the fullest edge, 4 for each halfedge
+// on a crowded edge; 4 a triangle while patches are glued. Angles are rounded: where two sheets are closer than that,
+// the pairing depends on the rounding (the same everywhere), and the result is a manifold nevertheless.
 #include "base/sort.h"
 #include "base/status.h"
 #include "mesh/halfedge.h"
@@ -27,7 +27,7 @@ struct Repair::Sheet {
 struct Repair::SheetPairing {
   Span<Sheet> sheets, buffer;
   Span<std::uint32_t> open;
-  Span<HalfedgeId> around;
+  std::size_t listed = 0;  ///< of `crowded_`
 };
 
 namespace {
@@ -52,7 +52,7 @@ double pseudo_angle(double x, double y) {
 /// Pairs the sheets of one ring, and lists them as they lie around the edge. Who is left over gets none; gives their
 /// number. A sheet that closes a solid goes with the nearest sheet
 /// before it that opens one, as brackets do, around the circle.
-std::size_t Repair::pair_ring(HalfedgeId h, const SheetPairing& pairing) {
+std::size_t Repair::pair_ring(HalfedgeId h, SheetPairing& pairing) {
   const VertexId a = lower_end(h), b = upper_end(h);
   const Vec3 origin = read_position(view_, a.value);
   const Vec3 axis = scaled_to_one(read_position(view_, b.value) - origin);
@@ -71,7 +71,7 @@ std::size_t Repair::pair_ring(HalfedgeId h, const SheetPairing& pairing) {
   });
   for (std::size_t i = 0; i < count; ++i) {
     ring_[sheets[i].halfedge] = none<HalfedgeId>();
-    pairing.around[i] = sheets[i].halfedge;
+    crowded_[pairing.listed++] = sheets[i].halfedge;
   }
   std::size_t open_count = 0, paired_count = 0;
   for (std::size_t i = 0; i < 2 * count; ++i) {
@@ -85,7 +85,6 @@ std::size_t Repair::pair_ring(HalfedgeId h, const SheetPairing& pairing) {
   }
   return count - paired_count;
 }
-
 
 /// Disjoint sets of triangles that are joined by twins, each triangle with or against the first of its set.
 struct Repair::PatchSets {
@@ -103,7 +102,7 @@ struct Repair::PatchSets {
     while (parent[f] != f) {
       const FaceId p = parent[f];
       if (parent[p] != p) {
-        flags[f] ^= flags[p] & against;
+        flags[f] = static_cast<std::uint8_t>(flags[f] ^ (flags[p] & against));
         parent[f] = parent[p];
       }
       total ^= (flags[f] & against) != 0;
@@ -142,8 +141,8 @@ Status Repair::glue_patches(bool& glued) {
   std::size_t open_count = 0;
   for (std::size_t i = 0; i < crowded_.count; ++i) {
     const HalfedgeId h = crowded_[i];
-    const bool next_edge = i == 0 || lower_end(h) != lower_end(crowded_[i - 1]) ||
-                           upper_end(h) != upper_end(crowded_[i - 1]);
+    const bool next_edge =
+        i == 0 || lower_end(h) != lower_end(crowded_[i - 1]) || upper_end(h) != upper_end(crowded_[i - 1]);
     if (next_edge) open_count = 0;
     if (!ring_[h].is_none()) continue;
     if (open_count > 0 && sets.join(h, open[open_count - 1])) {
@@ -168,14 +167,11 @@ Status Repair::pair_edges() {
     ISOLOD_TRY(arena_->scratch(fullest_ring_, pairing.sheets));
     ISOLOD_TRY(arena_->scratch(fullest_ring_, pairing.buffer));
     ISOLOD_TRY(arena_->scratch(fullest_ring_, pairing.open));
-    std::size_t crowded = 0;
     for (HalfedgeId h : Ids<HalfedgeId>(ring_.count)) {
       const HalfedgeId following = ring_[h];
       if (following == h) ring_[h] = none<HalfedgeId>();
-      if (following.is_none() || ring_[following] == h || following == h) continue;
-      pairing.around = crowded_.slice(crowded, crowded_count_ - crowded);
-      left_over |= pair_ring(h, pairing) > 1;
-      while (crowded < crowded_count_ && XX) ++crowded;
+      if (following == h || following.is_none() || ring_[following] == h) continue;
+      if (pair_ring(h, pairing) > 1) left_over = true;
     }
   }
   if (left_over) ISOLOD_TRY(glue_patches(glued));

@@ -18,7 +18,7 @@ inline namespace v1 {
 void Repair::reach_neighbours(FaceId f, Span<FaceId> queue, std::size_t& end) {
   for (std::uint32_t side = 0; side < 3; ++side) {
     const HalfedgeId h = halfedge(f, side), g = ring_[h];
-    if (g == h || ring_[g] != h) continue;
+    if (g == h || g.is_none() || ring_[g] != h) continue;
     const FaceId neighbour = face(g);
     const bool same_direction = corners_[g] == corners_[h];
     const bool turn = has(f, turned) != same_direction;
@@ -46,21 +46,23 @@ void Repair::orient_patch(FaceId seed, Span<FaceId> queue) {
   for (std::size_t i = 0; i < end && most_turned; ++i) flags_[queue[i]] ^= turned;
 }
 
+/// Marks the triangles to be turned. Edges have rings or twins.
 Status Repair::orient_triangles() {
   const ScratchScope scope(*arena_);
   Span<FaceId> queue;
   ISOLOD_TRY(arena_->scratch(face_count(), queue));
+  for (std::uint8_t& f : flags_) f &= static_cast<std::uint8_t>(~(turned | reached));
+  report_.flipped_triangles = 0;
   for (FaceId f : Ids<FaceId>(face_count())) {
     if (!is_dead(f) && !has(f, reached)) orient_patch(f, queue);
   }
-  if (report_.flipped_triangles != 0) turn_triangles();
   return {};
 }
 
-/// Turning (a, b, c) to (a, c, b) makes the sides 0, 1, 2 the old sides 2, 1, 0.
+/// Turns the marked triangles over. Turning (a, b, c) to (a, c, b) makes the sides 0, 1, 2 the old sides 2, 1, 0.
 void Repair::turn_triangles() {
   const auto after = [this](HalfedgeId h) {
-    return has(face(h), turned) ? HalfedgeId{6 * face(h).value + 2 - h.value} : h;
+    return !h.is_none() && has(face(h), turned) ? HalfedgeId{6 * face(h).value + 2 - h.value} : h;
   };
   for (FaceId f : Ids<FaceId>(face_count())) {
     if (!has(f, turned)) continue;
@@ -76,6 +78,7 @@ void Repair::turn_triangles() {
     last = old_first;
   }
   for (HalfedgeId& h : ring_) h = after(h);
+  for (HalfedgeId& h : crowded_) h = after(h);
 }
 
 /// Moves the corners of the fan that h leaves from to `vertex`, and marks them.

@@ -145,17 +145,40 @@ bool remove_bare(Triangulation& t, VertexId v, const Star& star, EdgeStack& stac
   return true;
 }
 
+/// Where every ear at v is blocked by an edge that joins its tips already, such an edge that can be flipped, or none. It
+/// encloses a site between itself and v; once it is flipped the site is outside, and the ear is free.
+HalfedgeId blocking_edge(const PlaneTriangulation& p, VertexId v) {
+  const Halfedges& mesh = p.t.mesh;
+  const HalfedgeId first = mesh.outgoing[v];
+  HalfedgeId h = first;
+  do {
+    if (!p.t.is_fixed(h) && !mesh.is_boundary(h)) {
+      const VertexId a = mesh.apex(mesh.twin[h]), c = mesh.apex(h);
+      const HalfedgeId forth = find_halfedge(mesh, a, c), edge = forth.is_none() ? find_halfedge(mesh, c, a) : forth;
+      if (!edge.is_none() && can_flip(p.t, edge)) return edge;
+    }
+    h = mesh.turn_left(h);
+  } while (!h.is_none() && h != first);
+  return none<HalfedgeId>();
+}
+
 }  // namespace
 
 bool take_out(PlaneTriangulation& p, VertexId v, EdgeStack& stack) {
-  for (;;) {
+  constexpr std::uint32_t most_detours = 8;
+  for (std::uint32_t detours = 0; detours <= most_detours;) {
     const Star star = look_around(p.t, v);
     if (remove_bare(p.t, v, star, stack)) return true;
     if (star.loose == 0) return false;
-    const HalfedgeId ear = best_ear(p, v);
-    if (ear.is_none()) return false;
-    flip_and_push(p, ear, stack);  // one loose edge fewer at v: this ends
+    HalfedgeId edge = best_ear(p, v);
+    if (edge.is_none()) {
+      edge = blocking_edge(p, v);
+      ++detours;
+    }
+    if (edge.is_none()) return false;
+    flip_and_push(p, edge, stack);  // an ear: one loose edge fewer at v, so this ends
   }
+  return false;
 }
 
 }  // namespace v1

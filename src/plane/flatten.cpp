@@ -161,9 +161,10 @@ Status improve(const Chart& chart, const ChartMetric& metric, const FlattenOptio
   system.pin(p, q);
   ISOLOD_TRY(solver.begin(system, x, arena));
   verdict = MapVerdict::flipped;
+  const std::uint32_t most = 40 + static_cast<std::uint32_t>(3 * square_root((double)x.count));
   for (std::uint32_t done = 0;; done += iterations_between_looks) {
     MapQuality quality = measure_map(mesh, metric, x);
-    const bool last = done >= options.most_iterations || solver.converged(residual_reduction);
+    const bool last = done >= most || solver.converged(residual_reduction);
     const bool good = quality.mean_ratio <= good_mean_ratio && quality.share_over_12 <= good_share_over;
     if (quality.flipped == 0 && (good || last)) {
       round_map(metric, mesh, x, uv);

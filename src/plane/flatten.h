@@ -19,7 +19,7 @@ struct Vec2f {
 inline Vec2 widen(Vec2f p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
 
 struct FlattenOptions {
-  double greatest_stretch_range = 16;
+  double greatest_stretch_range = 40;
   std::uint32_t most_iterations = 80;
 };
 

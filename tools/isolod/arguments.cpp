@@ -88,7 +88,7 @@ Arguments::Arguments(const CommandRule& rule, int count, const char* const* word
     fail_usage(std::string(rule.name) + ": unexpected word '" + operands_[rule.operand_count] + "'");
   }
   if (operands_.size() < rule.operand_count) {
-    fail_usage(std::string(rule.name) + ": wants " + rule.operands + "; see isolod " + rule.name + " --help");
+    fail_usage(std::string(rule.name) + ": wants " + rule.operands + "; --help tells more");
   }
 }
 
@@ -186,8 +186,8 @@ std::size_t Arguments::choice(const std::string& option, const std::vector<std::
   fail_usage("option " + option + ": '" + word + "' is none of " + all);
 }
 
-std::string help_text(const CommandRule& rule) {
-  std::string text = std::string("isolod ") + rule.name + " " + rule.operands;
+std::string help_text(const CommandRule& rule, const std::string& program) {
+  std::string text = program + " " + rule.operands;
   for (const OptionRule& option : rule.options) {
     if (std::string(option.name) == "--vertices" || std::string(option.name) == "-o") {
       text += std::string(" ") + option.name + " " + option.value;

@@ -54,7 +54,8 @@ class Arguments {
   bool wants_help_ = false;
 };
 
-std::string help_text(const CommandRule& rule);
+/// `program` stands before the operands, such as "isolod remesh".
+std::string help_text(const CommandRule& rule, const std::string& program);
 
 /// The name among `known` that is most like `word`, or "" when none is near: "--vertces" means "--vertices".
 std::string nearest_name(const std::string& word, const std::vector<std::string>& known);

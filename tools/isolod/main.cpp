@@ -47,7 +47,7 @@ int run(int count, char** words) {
     if (first != rule.name) continue;
     const Arguments arguments(rule, count - 2, words + 2);
     if (!arguments.wants_help()) return command.run(arguments);
-    std::fputs((help_text(rule) + "\n" + exit_code_help()).c_str(), stdout);
+    std::fputs((help_text(rule, "isolod " + first) + "\n" + exit_code_help()).c_str(), stdout);
     return exit_ok;
   }
   const std::string near = nearest_name(first, names);

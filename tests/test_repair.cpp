@@ -336,6 +336,21 @@ TEST_CASE("repair: fans and strips of flat triangles on one line") {
   }
 }
 
+TEST_CASE("repair: a flat triangle that is longer by less than rounding shows comes first") {
+  Soup soup;
+  const std::uint32_t p = soup.vertex(-0x1p60, 0, 0), q = soup.vertex(0x1p60, 0, 0), m = soup.vertex(0, 0, 0);
+  const std::uint32_t d = soup.vertex(0x1p60 + 256, 0, 0);
+  const std::uint32_t above = soup.vertex(0, 0x1p60, 0), below = soup.vertex(0, -0x1p60, 0);
+  soup.face(p, q, m), soup.face(q, p, d);
+  soup.face(p, m, above), soup.face(m, q, above), soup.face(q, d, above), soup.face(d, p, below);
+  const Outcome out = run(soup);
+  CHECK(out.valid());
+  CHECK(out.soup.triangles.size() == 6);
+  CHECK(out.topology.euler_characteristic == 1);
+  CHECK(out.topology.boundary_loops == 1);
+  CHECK(out.source_triangle == std::vector<std::uint32_t>{5, 5, 2, 3, 4, 5});
+}
+
 TEST_CASE("repair: a nearly flat triangle stays") {
   for (const double scale : {1.0, 1e-9, 1e9, 1e-150, 1e150, 1e-300}) {
     Soup soup;

@@ -43,7 +43,7 @@ class Case:
 
 def words():
     parser = argparse.ArgumentParser(prog="check_models.sh", description=__doc__.split("\n")[0])
-    parser.add_argument("--isolod", default="build/models-build/tools/isolod/isolod", help="the program to check")
+    parser.add_argument("--isolod", default="build/program/tools/isolod/isolod", help="the program to check")
     parser.add_argument("--data", default="../shared", help="folder that holds models/good, models/bad and referee")
     parser.add_argument("--models", nargs="+", metavar="NAME", help="only models whose names match (* and ? work)")
     parser.add_argument("--vertices", nargs="+", type=int, metavar="N", help="instead of 1000 5000 10000 20000")

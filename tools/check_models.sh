@@ -16,11 +16,8 @@ install_missing || exit 1
 case " $* " in
   *" --isolod "* | *" --help "* | *" -h "*) ;;
   *)
-    mkdir -p build
-    cmake -S . -B build/models-build -G Ninja -DISOLOD_TESTS=OFF >build/models-build.log 2>&1 &&
-      cmake --build build/models-build -j "$(jobs_here)" --target isolod_cli >>build/models-build.log 2>&1 ||
-      { tail -n 60 build/models-build.log >&2; exit 1; }
-    set -- --isolod build/models-build/tools/isolod/isolod "$@"
+    build_program || exit 1
+    set -- --isolod "$isolod" "$@"
     ;;
 esac
 exec python3 tools/check_models.py "$@"

@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # What the scripts share. Sourced with `. tools/common.sh` from the project's top folder, in any POSIX shell.
 
 missing_packages=""
@@ -64,6 +65,20 @@ build_preset() {
     echo "the build failed; all of it is in build/$preset.log" >&2
     return 1
   fi
+}
+
+# build_program: the optimised program alone, without tests, as $isolod.
+build_program() {
+  mkdir -p build
+  echo "building: the program"
+  if ! cmake -S . -B build/program -G Ninja -DISOLOD_TESTS=OFF >build/program.log 2>&1 ||
+    ! cmake --build build/program -j "$(jobs_here)" --target isolod_cli >>build/program.log 2>&1; then
+    tail -n 60 build/program.log >&2
+    echo "the build failed; all of it is in build/program.log" >&2
+    return 1
+  fi
+  # shellcheck disable=SC2034  # for whoever sources this
+  isolod=build/program/tools/isolod/isolod
 }
 
 # add_counts FILE: adds the last line `N passed, N failed` of a log to $passed and $failed; without one, a failure.

@@ -7,15 +7,7 @@ cd "$(dirname "$0")/.." || exit 1
 
 want_build_tools
 install_missing || exit 1
-mkdir -p build
-echo "building: release"
-if ! cmake -S . -B build/demo-build -G Ninja -DISOLOD_TESTS=OFF >build/demo-build.log 2>&1 ||
-  ! cmake --build build/demo-build -j "$(jobs_here)" --target isolod_cli >>build/demo-build.log 2>&1; then
-  tail -n 60 build/demo-build.log >&2
-  exit 1
-fi
-
-isolod=build/demo-build/tools/isolod/isolod
+build_program || exit 1
 out=build/demo
 mkdir -p "$out"
 

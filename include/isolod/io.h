@@ -47,9 +47,9 @@ struct LoadedMesh {
 /// Failures name a line (text) or a byte offset (binary): `syntax_error` (also for a face with fewer than 3 corners),
 /// `truncated_file`, `index_out_of_range`, `unsupported_feature`, `unknown_format`, `empty_mesh` where there is no
 /// triangle, `too_large`, `out_of_memory`. Then `mesh` is empty and the arena is back where it was.
-/// Memory: the result exactly (24 bytes a vertex, 12 a triangle, 4 more with materials) and scratch of about 28 bytes a
-/// corner of the largest polygon; STL needs 24 to 48 bytes of scratch a triangle, 72 more when it is text; GLB 120
-/// bytes a node and a copy of nothing. Time is linear in the file's size, polygons of thousands of corners aside.
+/// Memory: the result exactly (24 bytes a vertex, 12 a triangle, 4 more with materials) and scratch: 32 bytes a corner
+/// of the largest polygon; STL 24 to 48 bytes a triangle, 84 more when it is text; GLB 16 bytes a JSON token and about
+/// 220 a node. Time is linear in the file's size, concave polygons of thousands of corners aside.
 Status read_mesh(Span<const unsigned char> file, FileFormat format, LoadedMesh& mesh, Arena& arena);
 
 /// Where written bytes go. False ends the call with `Status::sink_failed`.

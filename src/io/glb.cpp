@@ -20,12 +20,8 @@ namespace {
 struct Affine {
   double m[3][4];
 
-  Vec3 apply(Vec3 p) const {
-    Vec3 q = p;
-    double* const to[3] = {&q.x, &q.y, &q.z};
-    for (int r = 0; r < 3; ++r) *to[r] = m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3];
-    return q;
-  }
+  Vec3 apply(Vec3 p) const { return {row(0, p), row(1, p), row(2, p)}; }
+  double row(int r, Vec3 p) const { return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3]; }
   bool mirrors() const {
     const Vec3 x = {m[0][0], m[1][0], m[2][0]}, y = {m[0][1], m[1][1], m[2][1]}, z = {m[0][2], m[1][2], m[2][2]};
     return dot(cross(x, y), z) < 0;

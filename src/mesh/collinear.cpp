@@ -27,52 +27,57 @@ struct WideInteger {
   // Coordinates span at most 2099 bits, their differences one more; products and their difference twice that and one.
   static constexpr int capacity = 132;
   std::uint32_t word[capacity];
+
+  void set(double x, int unit, int size);
+  void subtract(const WideInteger& other, int size);
+  void set_product(const WideInteger& a, const WideInteger& b, int size);
+  bool equals(const WideInteger& other, int size) const;
 };
 
 /// x / 2^unit, an integer.
-void load(WideInteger& out, double x, int unit, int size) {
-  for (int i = 0; i < size; ++i) out.word[i] = 0;
+void WideInteger::set(double x, int unit, int size) {
+  for (int i = 0; i < size; ++i) word[i] = 0;
   const BinaryParts parts = binary_parts(x);
   if (parts.digits == 0) return;
   const int shift = parts.exponent - unit, first = shift / 32, bit = shift % 32;
   const std::uint64_t low = parts.digits << bit;
   const std::uint64_t high = bit == 0 ? 0 : parts.digits >> (64 - bit);
-  const std::uint32_t words[3] = {static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(low >> 32),
-                                  static_cast<std::uint32_t>(high)};
-  for (int i = 0; i < 3 && first + i < size; ++i) out.word[first + i] = words[i];
+  const std::uint32_t part[3] = {static_cast<std::uint32_t>(low), static_cast<std::uint32_t>(low >> 32),
+                                 static_cast<std::uint32_t>(high)};
+  for (int i = 0; i < 3 && first + i < size; ++i) word[first + i] = part[i];
   if (!parts.negative) return;
   std::uint64_t carry = 1;
   for (int i = 0; i < size; ++i) {
-    carry += static_cast<std::uint32_t>(~out.word[i]);
-    out.word[i] = static_cast<std::uint32_t>(carry);
+    carry += static_cast<std::uint32_t>(~word[i]);
+    word[i] = static_cast<std::uint32_t>(carry);
     carry >>= 32;
   }
 }
 
-void subtract(WideInteger& a, const WideInteger& b, int size) {
+void WideInteger::subtract(const WideInteger& other, int size) {
   std::uint64_t borrow = 0;
   for (int i = 0; i < size; ++i) {
-    const std::uint64_t difference = std::uint64_t{a.word[i]} - b.word[i] - borrow;
-    a.word[i] = static_cast<std::uint32_t>(difference);
+    const std::uint64_t difference = std::uint64_t{word[i]} - other.word[i] - borrow;
+    word[i] = static_cast<std::uint32_t>(difference);
     borrow = difference >> 63;
   }
 }
 
-void multiply(WideInteger& out, const WideInteger& a, const WideInteger& b, int size) {
-  for (int i = 0; i < size; ++i) out.word[i] = 0;
+void WideInteger::set_product(const WideInteger& a, const WideInteger& b, int size) {
+  for (int i = 0; i < size; ++i) word[i] = 0;
   for (int i = 0; i < size; ++i) {
     std::uint64_t carry = 0;
     for (int j = 0; i + j < size; ++j) {
-      carry += std::uint64_t{a.word[i]} * b.word[j] + out.word[i + j];
-      out.word[i + j] = static_cast<std::uint32_t>(carry);
+      carry += std::uint64_t{a.word[i]} * b.word[j] + word[i + j];
+      word[i + j] = static_cast<std::uint32_t>(carry);
       carry >>= 32;
     }
   }
 }
 
-bool equal(const WideInteger& a, const WideInteger& b, int size) {
+bool WideInteger::equals(const WideInteger& other, int size) const {
   for (int i = 0; i < size; ++i) {
-    if (a.word[i] != b.word[i]) return false;
+    if (word[i] != other.word[i]) return false;
   }
   return true;
 }
@@ -92,17 +97,17 @@ bool collinear_in_integers(const double (&a)[3], const double (&b)[3], const dou
   const int size = (2 * difference_bits + 2 + 31) / 32;
   WideInteger u[3], v[3], origin, left, right;
   for (int i = 0; i < 3; ++i) {
-    load(origin, a[i], lowest, size);
-    load(u[i], b[i], lowest, size);
-    load(v[i], c[i], lowest, size);
-    subtract(u[i], origin, size);
-    subtract(v[i], origin, size);
+    origin.set(a[i], lowest, size);
+    u[i].set(b[i], lowest, size);
+    v[i].set(c[i], lowest, size);
+    u[i].subtract(origin, size);
+    v[i].subtract(origin, size);
   }
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    multiply(left, u[i], v[j], size);
-    multiply(right, u[j], v[i], size);
-    if (!equal(left, right, size)) return false;
+    left.set_product(u[i], v[j], size);
+    right.set_product(u[j], v[i], size);
+    if (!left.equals(right, size)) return false;
   }
   return true;
 }

@@ -175,21 +175,6 @@ void remove_boundary_vertex(Triangulation& t, VertexId v) {
   mesh.outgoing[v] = none<HalfedgeId>();
 }
 
-void remove_line_vertex(Triangulation& t, HalfedgeId to_q) {
-  Halfedges& mesh = t.mesh;
-  const HalfedgeId left = next(to_q), right = next(mesh.twin[prev(to_q)]);
-  const VertexId v = mesh.origin[to_q], q = mesh.origin[left], p = mesh.origin[right];
-  const HalfedgeId outer_left = mesh.twin[left], outer_right = mesh.twin[right];
-  kill_face(t, face(left));
-  kill_face(t, face(right));
-  mesh.outgoing[v] = none<HalfedgeId>();
-  mesh.twin[outer_left] = outer_right;
-  mesh.twin[outer_right] = outer_left;
-  t.fixed[outer_left] = t.fixed[outer_right] = 1;
-  if (mesh.origin[mesh.outgoing[q]].is_none()) mesh.outgoing[q] = outer_right;
-  if (mesh.origin[mesh.outgoing[p]].is_none()) mesh.outgoing[p] = outer_left;
-}
-
 Status compact(Triangulation& t, Span<const VertexId> new_number, std::size_t vertex_count, Arena& arena) {
   const ScratchScope scope(arena);
   Halfedges& mesh = t.mesh;

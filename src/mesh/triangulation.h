@@ -42,10 +42,6 @@ void remove_inner_vertex(Triangulation& t, VertexId v);
 /// Takes out a vertex of one face on the boundary, and that face.
 void remove_boundary_vertex(Triangulation& t, VertexId v);
 
-/// Takes out a vertex v of a line p v q that has one face on each side, v q p and v p q; the line becomes p q. `to_q` runs
-/// from v to q. Neither p q side may be a boundary.
-void remove_line_vertex(Triangulation& t, HalfedgeId to_q);
-
 /// Closes the gaps that dead faces left and renumbers vertices by `new_number` (none: dropped), in place. `vertex_count` live
 /// vertices must have the numbers 0 to vertex_count - 1. O(faces) time, 4 bytes a face of scratch.
 Status compact(Triangulation& t, Span<const VertexId> new_number, std::size_t vertex_count, Arena& arena);

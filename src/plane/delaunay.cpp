@@ -104,7 +104,8 @@ HalfedgeId best_ear(const PlaneTriangulation& p, VertexId v) {
 /// The faces and the loose edges (neither fixed nor boundary) around a vertex.
 struct Star {
   std::uint32_t faces = 0, loose = 0;
-  HalfedgeId fixed_out = none<HalfedgeId>();
+  std::uint32_t fixed_count = 0;
+  VertexId fixed_target[2] = {none<VertexId>(), none<VertexId>()};  // of the first two fixed edges
 };
 
 Star look_around(const Triangulation& t, VertexId v) {
@@ -115,14 +116,24 @@ Star look_around(const Triangulation& t, VertexId v) {
     ++star.faces;
     if (!t.is_fixed(h)) {
       ++star.loose;
-    } else if (star.fixed_out.is_none()) {
-      star.fixed_out = h;
+    } else {
+      if (star.fixed_count < 2) star.fixed_target[star.fixed_count] = t.mesh.target(h);
+      ++star.fixed_count;
     }
     h = t.mesh.turn_left(h);
   } while (!h.is_none() && h != first);
   return star;
 }
 
+/// The two ends of the line through v become neighbours on it.
+void fix_between(Triangulation& t, VertexId p, VertexId q) {
+  const HalfedgeId forth = find_halfedge(t.mesh, p, q), h = forth.is_none() ? find_halfedge(t.mesh, q, p) : forth;
+  t.fixed[h] = 1;
+  if (const HalfedgeId g = t.mesh.twin[h]; !g.is_none()) t.fixed[g] = 1;
+}
+
+/// Takes v out if it has as few faces as can be: one on the boundary, three inside (on a line too: two of its neighbours are then
+/// those along the line).
 bool remove_bare(Triangulation& t, VertexId v, const Star& star, EdgeStack& stack) {
   const Halfedges& mesh = t.mesh;
   const HalfedgeId out = mesh.outgoing[v];
@@ -131,17 +142,11 @@ bool remove_bare(Triangulation& t, VertexId v, const Star& star, EdgeStack& stac
     remove_boundary_vertex(t, v);
     return true;
   }
-  if (star.fixed_out.is_none()) {
-    if (star.faces != 3) return false;
-    const HalfedgeId kept = next(out);
-    remove_inner_vertex(t, v);
-    for (std::uint32_t k = 0; k < 3; ++k) stack.push(halfedge(face(kept), k));
-    return true;
-  }
-  if (star.loose != 0 || star.faces != 2) return false;
-  const HalfedgeId left = next(star.fixed_out), right = next(mesh.twin[prev(star.fixed_out)]);
-  if (mesh.is_boundary(left) || mesh.is_boundary(right)) return false;
-  remove_line_vertex(t, star.fixed_out);
+  if (star.faces != 3) return false;
+  const HalfedgeId kept = next(out);
+  remove_inner_vertex(t, v);
+  if (star.fixed_count == 2) fix_between(t, star.fixed_target[0], star.fixed_target[1]);
+  for (std::uint32_t k = 0; k < 3; ++k) stack.push(halfedge(face(kept), k));
   return true;
 }
 

@@ -41,13 +41,28 @@ const CommandRule& bench_rule() {
 struct Job {
   std::string name;  ///< for the first column
   std::string path;  ///< the input as a file
-  bool made = false;
   tool::RunSettings settings;
   std::uint64_t repeats = 5;
 };
 
-/// The operand as a file: as it is, or a made shape written to a temporary folder.
-void find_input(const Arguments& arguments, Job& job) {
+/// A name in the temporary folder; the file goes with it.
+struct TemporaryFile {
+  std::string path;
+
+  explicit TemporaryFile(const std::string& ending) {
+    const auto ticks = std::filesystem::file_time_type::clock::now().time_since_epoch().count();
+    path = (std::filesystem::temp_directory_path() / ("isolod-bench-" + std::to_string(ticks) + ending)).string();
+  }
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+};
+
+/// The operand as a file: as it is, or a made shape written to `room`.
+void find_input(const Arguments& arguments, const TemporaryFile& room, Job& job) {
   job.path = job.name = arguments.operand(0);
   shapes::ShapeInfo info;
   if (std::filesystem::exists(job.path) || !shapes::find(job.name, info)) return;
@@ -56,9 +71,7 @@ void find_input(const Arguments& arguments, Job& job) {
   tool::TriangleMesh mesh;
   mesh.positions = shape.positions;
   mesh.triangles = shape.triangles;
-  const auto unique = std::to_string(std::filesystem::file_time_type::clock::now().time_since_epoch().count());
-  job.path = (std::filesystem::temp_directory_path() / ("isolod-bench-" + unique + ".obj")).string();
-  job.made = true;
+  job.path = room.path;
   tool::OutputFile file(job.path);
   tool::write_mesh_file(file, tool::write_options(job.path, false), mesh);
 }
@@ -130,16 +143,15 @@ std::string own_command(const Arguments& arguments, const char* self) {
 }
 
 int bench_against(const Job& job, const Arguments& arguments, const char* self, bool header) {
-  const std::string out = (std::filesystem::temp_directory_path() / "isolod-bench-out.obj").string();
+  const TemporaryFile out("-out.obj");
   const std::string n = std::to_string(job.settings.options.vertex_count);
-  const std::string ours = bench::filled(own_command(arguments, self), job.path, out, n);
-  const std::string theirs = bench::filled(arguments.required_text("--against"), job.path, out, n);
+  const std::string ours = bench::filled(own_command(arguments, self), job.path, out.path, n);
+  const std::string theirs = bench::filled(arguments.required_text("--against"), job.path, out.path, n);
   Series a, b;
   for (std::uint64_t i = 0; i < job.repeats; ++i) {
     a.add(bench::run_process(ours), ours);
     b.add(bench::run_process(theirs), theirs);
   }
-  std::filesystem::remove(out);
   if (header) {
     std::puts(
         "model,vertices,repeats,isolod_seconds,isolod_cpu_seconds,isolod_peak_mb,other_seconds,other_cpu_seconds,"
@@ -163,12 +175,10 @@ int run(int count, char** words) {
   job.settings.options.lloyd_iterations =
       static_cast<std::uint32_t>(arguments.count("--lloyd", job.settings.options.lloyd_iterations, 0xffffffffu));
   job.repeats = std::max<std::uint64_t>(1, arguments.count("--repeat", 5, 1000));
-  find_input(arguments, job);
+  const TemporaryFile room(".obj");
+  find_input(arguments, room, job);
   const bool header = !arguments.has("--no-header");
-  const int code =
-      arguments.has("--against") ? bench_against(job, arguments, words[0], header) : bench_stages(job, header);
-  if (job.made) std::filesystem::remove(job.path);
-  return code;
+  return arguments.has("--against") ? bench_against(job, arguments, words[0], header) : bench_stages(job, header);
 }
 
 }  // namespace

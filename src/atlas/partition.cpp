@@ -21,9 +21,10 @@ double face_mean_density(const Surface& surface, FaceId f) {
 
 }  // namespace
 
-Status DualDistance::begin(const Surface& surface, double line_rate, Arena& arena) {
+Status DualDistance::begin(const Surface& surface, double line_rate, Lines lines, Arena& arena) {
   surface_ = &surface;
   line_rate_ = line_rate;
+  lines_ = lines;
   ISOLOD_TRY(heap_.begin(surface.mesh.face_count(), arena));
   ISOLOD_TRY(arena.scratch(surface.mesh.face_count(), distance_));
   ISOLOD_TRY(arena.scratch(surface.mesh.face_count(), label_));
@@ -39,11 +40,16 @@ void DualDistance::clear(Span<const FaceId> faces) {
   for (FaceId f : faces) distance_[f] = unreached;
 }
 
+bool DualDistance::is_barred(HalfedgeId h) const {
+  if (surface_->mesh.is_boundary(h)) return true;
+  return lines_ == Lines::barriers && (surface_->line[h] & line_feature) != 0;
+}
+
 double DualDistance::step_cost(HalfedgeId h) const {
   const FaceId f = face(h), g = face(surface_->mesh.twin[h]);
   const double density = 0.5 * (face_mean_density(*surface_, f) + face_mean_density(*surface_, g));
   const double way = isolod::distance(face_centre(*surface_, f), face_centre(*surface_, g));
-  const double crossing = surface_->line[h] == line_none ? 0 : line_crossing_cost;
+  const double crossing = (surface_->line[h] & line_feature) == 0 ? 0 : line_crossing_cost;
   return least_step + way * line_rate_ * square_root(density) + crossing;
 }
 
@@ -56,9 +62,8 @@ void DualDistance::spread(FaceId seed, std::uint32_t label, Span<const std::uint
     const FaceId f{entry.element};
     for (std::uint32_t k = 0; k < 3; ++k) {
       const HalfedgeId h = halfedge(f, k);
-      const HalfedgeId t = surface_->mesh.twin[h];
-      if (t.is_none()) continue;
-      const FaceId g = face(t);
+      if (is_barred(h)) continue;
+      const FaceId g = face(surface_->mesh.twin[h]);
       if (!region.empty() && region[g] != region[seed]) continue;
       const double d = entry.key + step_cost(h);
       if (!(d < distance_[g])) continue;
@@ -67,6 +72,30 @@ void DualDistance::spread(FaceId seed, std::uint32_t label, Span<const std::uint
       heap_.push(g.value, d);
     }
   }
+}
+
+void DualDistance::grow(Span<const FaceId> core, double limit, Span<FaceId>& reached) {
+  std::size_t count = 0;
+  for (FaceId f : core) {
+    distance_[f] = 0;
+    reached[count++] = f;
+    heap_.push(f.value, 0);
+  }
+  while (!heap_.empty()) {
+    const IndexedHeap::Entry entry = heap_.pop();
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const HalfedgeId h = halfedge(FaceId{entry.element}, k);
+      if (is_barred(h)) continue;
+      const FaceId g = face(surface_->mesh.twin[h]);
+      const double d = entry.key + step_cost(h);
+      if (!(d < distance_[g]) || d > limit) continue;
+      if (distance_[g] == unreached) reached[count++] = g;
+      distance_[g] = d;
+      heap_.push(g.value, d);
+    }
+  }
+  reached.count = count;
+  clear(reached);
 }
 
 namespace {
@@ -125,7 +154,7 @@ void smooth_borders(const Surface& surface, Span<std::uint32_t> label) {
       const std::uint32_t l = label[face(t)];
       if (l == label[f]) {
         ++own;
-      } else if (surface.line[h] == line_none && (other == UINT32_MAX || l == other)) {
+      } else if ((surface.line[h] & line_feature) == 0 && (other == UINT32_MAX || l == other)) {
         other = l;
         ++other_count;
       }
@@ -142,7 +171,7 @@ Status partition(const Surface& surface, const PartitionOptions& options, Span<s
   const double radius = square_root(0.43 * options.samples_per_chart);
   DualDistance distances;
   Span<FaceId> seeds;
-  ISOLOD_TRY(distances.begin(surface, options.line_rate, arena));
+  ISOLOD_TRY(distances.begin(surface, options.line_rate, options.lines, arena));
   ISOLOD_TRY(place_seeds(surface.mesh.face_count(), radius, distances, seeds, arena));
   for (std::uint32_t round = 0; round < options.rounds; ++round) {
     ISOLOD_TRY(centre_seeds(surface, distances, seeds, arena));

@@ -12,11 +12,17 @@
 namespace isolod {
 inline namespace v1 {
 
+/// What feature lines are to regions.
+enum class Lines : std::uint8_t {
+  dear,      ///< crossed at a price: borders prefer to lie on them
+  barriers,  ///< never crossed
+};
+
 /// Shortest ways over the dual graph from several seed faces at once, grown seed by seed.
 class DualDistance {
  public:
   /// 24 bytes a face of scratch.
-  Status begin(const Surface& surface, double line_rate, Arena& arena);
+  Status begin(const Surface& surface, double line_rate, Lines lines, Arena& arena);
 
   void clear();
   void clear(Span<const FaceId> faces);
@@ -24,15 +30,21 @@ class DualDistance {
   /// `region` equals that of the seed (an empty span: everywhere). O(faces reached * log).
   void spread(FaceId seed, std::uint32_t label, Span<const std::uint32_t> region);
 
+  /// All faces within `limit` of a face of `core`, the core first, into `reached`, which has room for every face. What was known
+  /// of distances is forgotten. O(faces reached * log).
+  void grow(Span<const FaceId> core, double limit, Span<FaceId>& reached);
+
   double distance(FaceId f) const { return distance_[f]; }
   std::uint32_t label(FaceId f) const { return label_[f]; }
   static constexpr double unreached = 1e300;
 
  private:
+  bool is_barred(HalfedgeId h) const;
   double step_cost(HalfedgeId h) const;
 
   const Surface* surface_ = nullptr;
   double line_rate_ = 0;
+  Lines lines_ = Lines::dear;
   IndexedHeap heap_;
   Span<double> distance_;
   Span<std::uint32_t> label_;
@@ -42,6 +54,7 @@ struct PartitionOptions {
   double line_rate = 0;          ///< R_f
   double samples_per_chart = 250;
   std::uint32_t rounds = 3;      ///< of Lloyd's algorithm on the regions
+  Lines lines = Lines::dear;
 };
 
 /// Labels every face with a region below `region_count`. `label` is given, one entry a face. Every region is connected and no

@@ -169,7 +169,7 @@ void remove_boundary_vertex(Triangulation& t, VertexId v) {
   const HalfedgeId inner = mesh.twin[ab];  // b a
   const VertexId b = mesh.origin[prev(out)];
   mesh.twin[inner] = none<HalfedgeId>();
-  t.fixed[inner] = 1;
+  t.fixed[inner] = t.fixed[out];
   mesh.outgoing[b] = inner;
   kill_face(t, face(out));
   mesh.outgoing[v] = none<HalfedgeId>();

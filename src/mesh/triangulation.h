@@ -12,7 +12,7 @@ inline namespace v1 {
 
 struct Triangulation {
   Halfedges mesh;
-  Span<std::uint8_t> fixed;  ///< per halfedge, equal on twins
+  Span<std::uint8_t> fixed;  ///< per halfedge, equal on twins: not 0 on a line, the caller's bits
 
   bool is_dead(FaceId f) const { return mesh.origin[halfedge(f, 0)].is_none(); }
   bool is_fixed(HalfedgeId h) const { return fixed[h] != 0; }

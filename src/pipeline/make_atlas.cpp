@@ -29,7 +29,7 @@ Status MakeAtlas::begin(const Surface& surface, const AtlasOptions& options, Are
     for (FaceId f : Ids<FaceId>(face_count)) unordered[f] = f;
     counting_sort<FaceId>(unordered, order_, start, [&](FaceId f) { return label_[f]; });
   }
-  return distances_.begin(surface, options.line_rate, arena);
+  return distances_.begin(surface, options.line_rate, Lines::dear, arena);
 }
 
 bool MakeAtlas::is_too_large(Span<const FaceId> faces) const {

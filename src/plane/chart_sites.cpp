@@ -15,7 +15,7 @@ Status build_flat_chart(const Surface& surface, const Atlas& atlas, Span<const V
   for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
     const HalfedgeId global = flat.chart.on_surface(h);
     flat.uv[mesh.origin[h]] = widen(uv[global]);
-    flat.barrier[h] = surface.line[global] != line_none;
+    flat.barrier[h] = surface.line[global];
   }
   return {};
 }

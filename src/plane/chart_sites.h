@@ -39,7 +39,7 @@ struct SampledSurface {
 struct FlatChart {
   Chart chart;
   Span<Vec2> uv;              ///< per local vertex
-  Span<std::uint8_t> barrier;  ///< per local halfedge: 1 on lines
+  Span<std::uint8_t> barrier;  ///< per local halfedge: the bits of its line, 0 elsewhere
 };
 
 struct ChartSites {

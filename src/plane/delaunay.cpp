@@ -106,6 +106,7 @@ struct Star {
   std::uint32_t faces = 0, loose = 0;
   std::uint32_t fixed_count = 0;
   VertexId fixed_target[2] = {none<VertexId>(), none<VertexId>()};  // of the first two fixed edges
+  std::uint8_t fixed_bits = 0;
 };
 
 Star look_around(const Triangulation& t, VertexId v) {
@@ -118,6 +119,7 @@ Star look_around(const Triangulation& t, VertexId v) {
       ++star.loose;
     } else {
       if (star.fixed_count < 2) star.fixed_target[star.fixed_count] = t.mesh.target(h);
+      star.fixed_bits = t.fixed[h];
       ++star.fixed_count;
     }
     h = t.mesh.turn_left(h);
@@ -126,10 +128,10 @@ Star look_around(const Triangulation& t, VertexId v) {
 }
 
 /// The two ends of the line through v become neighbours on it.
-void fix_between(Triangulation& t, VertexId p, VertexId q) {
+void fix_between(Triangulation& t, VertexId p, VertexId q, std::uint8_t bits) {
   const HalfedgeId forth = find_halfedge(t.mesh, p, q), h = forth.is_none() ? find_halfedge(t.mesh, q, p) : forth;
-  t.fixed[h] = 1;
-  if (const HalfedgeId g = t.mesh.twin[h]; !g.is_none()) t.fixed[g] = 1;
+  t.fixed[h] = bits;
+  if (const HalfedgeId g = t.mesh.twin[h]; !g.is_none()) t.fixed[g] = bits;
 }
 
 /// Takes v out if it has as few faces as can be: one on the boundary, three inside (on a line too: two of its neighbours are then
@@ -145,7 +147,7 @@ bool remove_bare(Triangulation& t, VertexId v, const Star& star, EdgeStack& stac
   if (star.faces != 3) return false;
   const HalfedgeId kept = next(out);
   remove_inner_vertex(t, v);
-  if (star.fixed_count == 2) fix_between(t, star.fixed_target[0], star.fixed_target[1]);
+  if (star.fixed_count == 2) fix_between(t, star.fixed_target[0], star.fixed_target[1], star.fixed_bits);
   for (std::uint32_t k = 0; k < 3; ++k) stack.push(halfedge(face(kept), k));
   return true;
 }

@@ -1,0 +1,102 @@
+#include "draw/camera.h"
+
+#include <cmath>
+
+namespace draw {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+Vec3 unit(Vec3 v) { return 1 / std::max(length(v), 1e-300) * v; }
+
+double along(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+/// How much of the area lies flat at the bottom, if that axis is up.
+double base_share(const Model& model, int axis) {
+  const Bounds bounds = bounds_of(model);
+  const double low = along(bounds.low, axis), high = along(bounds.high, axis);
+  double base = 0, all = 0;
+  for (std::size_t f = 0; f < model.face.size(); ++f) {
+    const Vec3 area = model.area_vector(f);
+    const double size = length(area);
+    all += size;
+    const double height = (along(model.corner(f, 0), axis) - low) / std::max(high - low, 1e-300);
+    if (height < 0.04 && -along(area, axis) > 0.95 * size) base += size;
+  }
+  return all > 0 ? base / all : 0;
+}
+
+Vec3 choose_up(const Model& model) {
+  const bool z_is_up = base_share(model, 2) > base_share(model, 1) + 0.01;
+  return z_is_up ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+}
+
+/// The surface that this view shows, what is seen from the side counted less.
+double shown_surface(const Model& model, Camera camera) {
+  constexpr std::size_t size = 140;
+  fit(camera, model, size, size);
+  ItemImage image(size, size);
+  for (std::size_t f = 0; f < model.face.size(); ++f) {
+    image.paint(camera.project(model.corner(f, 0)), camera.project(model.corner(f, 1)),
+                camera.project(model.corner(f, 2)), static_cast<std::uint32_t>(f));
+  }
+  double shown = 0;
+  for (std::size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
+    const std::uint32_t f = image.item(pixel);
+    if (f == ItemImage::nothing) continue;
+    const double facing = dot(unit(model.area_vector(f)), camera.toward);
+    const double weight = facing < 0 ? 0.5 : std::min(1.0, facing / 0.45);  // backs of open surfaces are no good sight
+    shown += weight / std::max(std::fabs(facing), 0.08);
+  }
+  return shown / (camera.scale * camera.scale);
+}
+
+}  // namespace
+
+Camera camera_from(Vec3 toward, Vec3 up) {
+  Camera camera;
+  camera.toward = unit(toward);
+  camera.right = unit(cross(up, camera.toward));
+  camera.up = cross(camera.toward, camera.right);
+  camera.centre = {0, 0, 0};
+  return camera;
+}
+
+Camera choose_camera(const Model& model) {
+  const Model light = lightened(model, 20000);
+  const Vec3 up = choose_up(light);
+  const Vec3 east = up.z > 0 ? Vec3{1, 0, 0} : Vec3{0, 0, 1}, north = cross(up, east);
+  Camera best;
+  double most = -1;
+  for (int height = 0; height < 3; ++height) {
+    const double elevation = (14 + 12 * height) * pi / 180;
+    for (int step = 0; step < 24; ++step) {
+      const double turn = (step + 0.5) * pi / 12;
+      const Vec3 level = std::cos(turn) * east + std::sin(turn) * north;
+      const Camera camera = camera_from(std::cos(elevation) * level + std::sin(elevation) * up, up);
+      const double shown = shown_surface(light, camera) * (height == 1 ? 1.02 : 1);
+      if (shown > most) most = shown, best = camera;
+    }
+  }
+  return best;
+}
+
+ScreenPoint fit(Camera& camera, const Model& model, double width, double height) {
+  camera.scale = 1;
+  camera.origin_x = camera.origin_y = 0;
+  camera.centre = bounds_of(model).centre();
+  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+  for (const Vec3& p : model.point) {
+    const ScreenPoint s = camera.project(p);
+    x0 = std::min(x0, s.x), x1 = std::max(x1, s.x);
+    y0 = std::min(y0, s.y), y1 = std::max(y1, s.y);
+  }
+  const double w = std::max(x1 - x0, 1e-300), h = std::max(y1 - y0, 1e-300);
+  camera.scale = std::min(width / w, height / h);
+  camera.origin_x = width / 2 - camera.scale * (x0 + x1) / 2;
+  camera.origin_y = height / 2 - camera.scale * (y0 + y1) / 2;
+  return {camera.scale * w, camera.scale * h, 0};
+}
+
+}  // namespace draw

@@ -34,7 +34,7 @@ def refusal(case):
     excused = report.get("status") == "budget_too_small" and case.vertices < needed and found.get("retry") == 0
     named = f", {found['named']} named" if "named" in found else ""
     named += f", which gives exit code {found['retry']}" if found.get("retry") else ""
-    return verdict("exact", excused, label(case), f"exit code {found['code']}: {found['errors'][-120:]}{named}")
+    return verdict("exact", excused, label(case), f"exit code {found['code']}: {found['errors'].split(': ', 2)[-1]}{named}")
 
 
 def judge_smooth(case, mesh, compared):

@@ -1,5 +1,7 @@
 #include "atlas/partition.h"
 
+#include "base/sort.h"
+
 namespace isolod {
 inline namespace v1 {
 
@@ -184,21 +186,64 @@ Status partition(const Surface& surface, const PartitionOptions& options, Span<s
   return {};
 }
 
-void split_region(Span<const FaceId> faces, std::uint32_t old_label, std::uint32_t new_label,
-                  Span<std::uint32_t> region, DualDistance& distances) {
-  FaceId ends[2] = {faces[0u], faces[0u]};
-  for (FaceId& end : ends) {
+Status order_by_region(Span<const std::uint32_t> label, std::uint32_t region_count, Span<FaceId> order, Arena& arena) {
+  const ScratchScope scope(arena);
+  Span<FaceId> unordered;
+  Span<std::uint32_t> start;
+  ISOLOD_TRY(arena.scratch(label.count, unordered));
+  ISOLOD_TRY(arena.scratch(region_count + std::size_t{1}, start));
+  for (FaceId f : Ids<FaceId>(label.count)) unordered[f] = f;
+  counting_sort<FaceId>(unordered, order, start, [&](FaceId f) { return label[f]; });
+  return {};
+}
+
+std::size_t end_of_region(Span<const FaceId> order, Span<const std::uint32_t> label, std::size_t first) {
+  std::size_t end = first;
+  while (end < order.count && label[order[end]] == label[order[first]]) ++end;
+  return end;
+}
+
+namespace {
+
+/// Two faces of a region that lie far apart: the farthest from its first, and the farthest from that.
+void find_far_faces(Span<const FaceId> faces, std::uint32_t old_label, Span<const std::uint32_t> label,
+                    DualDistance& distances, FaceId (&ends)[2]) {
+  ends[0] = faces[0u];
+  for (std::uint32_t round = 0; round < 2; ++round) {
     distances.clear(faces);
-    distances.spread(ends[0], old_label, region);
+    distances.spread(ends[0], old_label, label);
+    ends[1] = ends[0];
     for (FaceId f : faces) {
-      if (distances.distance(f) > distances.distance(end)) end = f;
+      if (distances.distance(f) > distances.distance(ends[1])) ends[1] = f;
     }
-    if (&end == &ends[0]) ends[1] = ends[0];
+    if (round == 0) ends[0] = ends[1];
   }
+}
+
+}  // namespace
+
+Status split_region(Span<FaceId> faces, std::uint32_t new_label, Span<std::uint32_t> label, DualDistance& distances,
+                    Arena& arena) {
+  const ScratchScope scope(arena);
+  Span<FaceId> moved;
+  ISOLOD_TRY(arena.scratch(faces.count, moved));
+  const std::uint32_t old_label = label[faces[0u]];
+  FaceId ends[2];
+  find_far_faces(faces, old_label, label, distances, ends);
   distances.clear(faces);
-  distances.spread(ends[0], old_label, region);
-  distances.spread(ends[1], new_label, region);
-  for (FaceId f : faces) region[f] = distances.label(f);
+  distances.spread(ends[0], old_label, label);
+  distances.spread(ends[1], new_label, label);
+  std::size_t kept = 0, gone = 0;
+  for (FaceId f : faces) {
+    label[f] = distances.label(f);
+    if (label[f] == old_label) {
+      faces[kept++] = f;
+    } else {
+      moved[gone++] = f;
+    }
+  }
+  for (std::size_t i = 0; i < gone; ++i) faces[kept + i] = moved[i];
+  return {};
 }
 
 }  // namespace v1

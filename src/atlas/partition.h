@@ -62,10 +62,16 @@ struct PartitionOptions {
 Status partition(const Surface& surface, const PartitionOptions& options, Span<std::uint32_t> label,
                  std::uint32_t& region_count, Arena& arena);
 
-/// Splits one region in two: `faces` are its faces, `region` holds `old_label` exactly there. About half of the faces get
-/// `new_label`. Both parts are connected if the region was. `distances` is used as a tool.
-void split_region(Span<const FaceId> faces, std::uint32_t old_label, std::uint32_t new_label,
-                  Span<std::uint32_t> region, DualDistance& distances);
+/// All faces ordered by their region, each region in face order. 4 bytes a face of scratch, given back.
+Status order_by_region(Span<const std::uint32_t> label, std::uint32_t region_count, Span<FaceId> order, Arena& arena);
+
+/// The end of the run of one label in `order` that starts at `first`.
+std::size_t end_of_region(Span<const FaceId> order, Span<const std::uint32_t> label, std::size_t first);
+
+/// Splits the region of `faces`, which are all that have its label, in two: some of them get `new_label` and come last in `faces`.
+/// Both parts are connected if the region was. `distances` is a tool; 4 bytes a face of scratch, given back.
+Status split_region(Span<FaceId> faces, std::uint32_t new_label, Span<std::uint32_t> label, DualDistance& distances,
+                    Arena& arena);
 
 }  // namespace v1
 }  // namespace isolod

@@ -39,6 +39,17 @@ struct Halfedges {
   }
 };
 
+/// Calls visit(h) for every halfedge out of v, counterclockwise. `visit` must not change the mesh.
+template <class Visit>
+void visit_outgoing(const Halfedges& mesh, VertexId v, Visit visit) {
+  const HalfedgeId first = mesh.outgoing[v];
+  HalfedgeId h = first;
+  do {
+    visit(h);
+    h = mesh.turn_left(h);
+  } while (!h.is_none() && h != first);
+}
+
 /// Fills `twin` and `outgoing` from `origin`. The triangles must be those of an oriented 2-manifold, as repair leaves
 /// them; `mesh.origin` is given, `mesh.twin` and `mesh.outgoing` are allocated as results, `vertex_count` of them.
 /// O(n) time; 8 bytes a halfedge and 4 a vertex of scratch. (Edges are paired by two

@@ -1,4 +1,6 @@
 // The narrated order of the stages: from the caller's triangles to the first mesh.
+#include <cstdlib>
+#include <cstdio>
 #include "mesh/validate.h"
 #include "base/hash.h"
 #include "pipeline/state.h"
@@ -13,6 +15,7 @@ namespace {
 
 using State = Remesher::State;
 
+std::uint32_t relax_iterations = getenv("RELAX") ? atoi(getenv("RELAX")) : 20;
 constexpr double refine_limit = 1.25;  // wished edge lengths
 
 std::uint64_t face_units(const State& s) { return s.surface.mesh.face_count(); }
@@ -173,8 +176,40 @@ Status step_charts(State& s, bool& done, std::uint64_t& units) {
 
 Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   ISOLOD_TRY(s.stitch.finish(*s.arena));
-  ISOLOD_TRY(s.arena->result(3 * std::size_t{s.options.vertex_count}, s.positions));
-  lift_samples(s.sampled(), s.positions);
+  units = s.options.vertex_count;
+  done = true;
+  return gather_samples(s.sampled(), s.samples, *s.arena);
+}
+
+Status step_frames(State& s, bool& done, std::uint64_t& units) {
+  if (!s.stage_begun) {
+    FrameOptions options;
+    options.line_rate = s.rates.line;
+    units = 20 * face_units(s);
+    return s.make_frames.begin(s.surface, options, *s.arena);
+  }
+  units = 4000;
+  if (!s.make_frames.done()) return s.make_frames.step(*s.arena);
+  done = true;
+  return s.make_frames.finish(s.frames, *s.arena);
+}
+
+Status step_relax(State& s, bool& done, std::uint64_t& units) {
+  if (!s.stage_begun) {
+    s.scratch_mark = s.arena->mark();
+    ISOLOD_TRY(s.relaxation.begin(s.surface, s.frames, s.stitch.mesh(), s.samples, {s.options.weight, 1.8}, *s.arena));
+  }
+  RelaxReport r = s.relaxation.iterate();
+  if (getenv("RELAX_DEBUG")) printf("moved %u homeless %u shortened %u flips %u\n", r.moved, r.homeless, r.shortened, r.flips);
+  units = 8 * std::uint64_t{s.options.vertex_count};
+  done = ++s.piece == relax_iterations;
+  if (done) s.arena->rewind_scratch(s.scratch_mark);
+  return {};
+}
+
+Status step_lift(State& s, bool& done, std::uint64_t& units) {
+  ISOLOD_TRY(s.arena->result(3 * s.samples.count(), s.positions));
+  lift_samples(s.surface, s.samples, s.positions);
   const Halfedges& mesh = s.stitch.mesh().mesh;
   ISOLOD_TRY(s.arena->result(mesh.halfedge_count(), s.triangles));
   for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) s.triangles[h] = mesh.origin[h].value;
@@ -231,6 +266,19 @@ std::uint64_t hash_places(const State& s) {
     hash.add(p.face.value), hash.add(p.weight1), hash.add(p.weight2);
   });
 }
+std::uint64_t hash_frames(const State& s) {
+  ContentHash hash;
+  for (const Frame& frame : s.frames.frame) {
+    for (const Vec2f& p : frame.uv) hash.add(p.x), hash.add(p.y);
+  }
+  return hash.value();
+}
+std::uint64_t hash_samples(const State& s) {
+  ContentHash hash;
+  for (const SurfacePlace& p : s.samples.place) hash.add(p.face.value), hash.add(p.weight1), hash.add(p.weight2);
+  for (VertexId v : s.stitch.mesh().mesh.origin) hash.add(v.value);
+  return hash.value();
+}
 std::uint64_t hash_result(const State& s) {
   ContentHash hash;
   for (double x : s.positions) hash.add(x);
@@ -253,7 +301,10 @@ const StageEntry stage_entries[] = {
     {"lines", step_lines, hash_line_samples, 0.01},
     {"diffuse", step_diffuse, hash_places, 0.02},
     {"charts", step_charts, hash_places, 0.4},
-    {"stitch", step_stitch, hash_result, 0.02},
+    {"stitch", step_stitch, hash_places, 0.02},
+    {"frames", step_frames, hash_frames, 0.3},
+    {"relax", step_relax, hash_samples, 0.2},
+    {"lift", step_lift, hash_result, 0.01},
     {"validate", step_validate, hash_result, 0.01},
 };
 const std::uint32_t stage_entry_count = sizeof stage_entries / sizeof stage_entries[0];

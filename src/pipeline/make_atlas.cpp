@@ -1,7 +1,5 @@
 #include "pipeline/make_atlas.h"
 
-#include "base/sort.h"
-
 namespace isolod {
 inline namespace v1 {
 
@@ -20,15 +18,7 @@ Status MakeAtlas::begin(const Surface& surface, const AtlasOptions& options, Are
   partition_options.line_rate = options.line_rate;
   partition_options.samples_per_chart = options.samples_per_chart;
   ISOLOD_TRY(partition(surface, partition_options, label_, next_label_, arena));
-  {
-    const ScratchScope scope(arena);
-    Span<FaceId> unordered;
-    Span<std::uint32_t> start;
-    ISOLOD_TRY(arena.scratch(face_count, unordered));
-    ISOLOD_TRY(arena.scratch(next_label_ + std::size_t{1}, start));
-    for (FaceId f : Ids<FaceId>(face_count)) unordered[f] = f;
-    counting_sort<FaceId>(unordered, order_, start, [&](FaceId f) { return label_[f]; });
-  }
+  ISOLOD_TRY(order_by_region(label_, next_label_, order_, arena));
   return distances_.begin(surface, options.line_rate, Lines::dear, arena);
 }
 
@@ -53,31 +43,9 @@ Status MakeAtlas::try_map(Span<const FaceId> faces, bool& good, Arena& arena) {
   return {};
 }
 
-Status MakeAtlas::split(Span<FaceId> faces, Arena& arena) {
-  const std::uint32_t old_label = label_[faces[0u]], new_label = next_label_++;
-  split_region(faces, old_label, new_label, label_, distances_);
-  const ScratchScope scope(arena);
-  Span<FaceId> moved;
-  ISOLOD_TRY(arena.scratch(faces.count, moved));
-  std::size_t kept = 0, gone = 0;
-  for (FaceId f : faces) {
-    if (label_[f] == old_label) {
-      faces[kept++] = f;
-    } else {
-      moved[gone++] = f;
-    }
-  }
-  for (std::size_t i = 0; i < gone; ++i) faces[kept + i] = moved[i];
-  return {};
-}
-
 Status MakeAtlas::step(Arena& arena) {
-  std::size_t end = position_;
-  const std::uint32_t label = label_[order_[position_]];
-  while (end < order_.count && label_[order_[end]] == label) {
-    place_[order_[end]] = static_cast<std::uint32_t>(end - position_);
-    ++end;
-  }
+  const std::size_t end = end_of_region(order_, label_, position_);
+  for (std::size_t i = position_; i < end; ++i) place_[order_[i]] = static_cast<std::uint32_t>(i - position_);
   const Span<FaceId> faces = order_.slice(position_, end - position_);
   bool good = false;
   if (!is_too_large(faces)) ISOLOD_TRY(try_map(faces, good, arena));
@@ -87,20 +55,15 @@ Status MakeAtlas::step(Arena& arena) {
     return {};
   }
   if (faces.count == 1) return fail(Status::no_convergence, Element::triangle, surface_->source_face[faces[0u]]);
-  return split(faces, arena);
+  return split_region(faces, next_label_++, label_, distances_, arena);
 }
 
 Status MakeAtlas::finish(Surface& surface, Atlas& atlas, Span<Vec2f>& uv, Arena& arena) {
   arena.rewind_scratch(mark_);
   ISOLOD_TRY(arena.result(chart_count_ + std::size_t{1}, atlas.start));
   std::uint32_t chart = 0;
-  for (std::size_t i = 0; i < order_.count;) {
-    const std::uint32_t label = label_[order_[i]];
-    atlas.start[chart] = static_cast<std::uint32_t>(i);
-    std::size_t end = i;
-    while (end < order_.count && label_[order_[end]] == label) ++end;
-    for (; i < end; ++i) place_[order_[i]] = static_cast<std::uint32_t>(i - atlas.start[chart]);
-    ++chart;
+  for (std::size_t i = 0; i < order_.count; i = end_of_region(order_, label_, i)) {
+    atlas.start[chart++] = static_cast<std::uint32_t>(i);
   }
   atlas.start[chart] = static_cast<std::uint32_t>(order_.count);
   for (std::uint32_t c = 0; c < chart; ++c) {

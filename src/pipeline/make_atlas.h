@@ -31,7 +31,6 @@ class MakeAtlas {
  private:
   bool is_too_large(Span<const FaceId> faces) const;
   Status try_map(Span<const FaceId> faces, bool& good, Arena& arena);
-  Status split(Span<FaceId> faces, Arena& arena);
 
   const Surface* surface_ = nullptr;
   AtlasOptions options_;

@@ -5,6 +5,7 @@
 #include "mesh/repair.h"
 #include "pipeline/make_atlas.h"
 #include "plane/lloyd.h"
+#include "relax/relaxation.h"
 #include "result/stitch.h"
 #include "sample/calibrate.h"
 #include "sample/diffuse.h"
@@ -24,7 +25,8 @@ struct Remesher::State {
   std::uint32_t stage = 0;
   bool stage_begun = false;
   double stage_start = 0;
-  std::uint32_t piece = 0;  ///< of the stage: the next chart
+  std::uint32_t piece = 0;  ///< of the stage: the next chart, the next iteration
+  ArenaMark scratch_mark;   ///< where the stage's scratch began
 
   Repair repair;
   RepairedMesh repaired;
@@ -40,6 +42,10 @@ struct Remesher::State {
   Span<std::uint32_t> chart_start;
   SampleNumbers numbers;
   Stitch stitch;
+  Samples samples;
+  MakeFrames make_frames;
+  Frames frames;
+  Relaxation relaxation;
   Span<double> positions;
   Span<std::uint32_t> triangles;
 

@@ -5,8 +5,6 @@
 namespace isolod {
 inline namespace v1 {
 
-namespace {
-
 Vec2 circumcentre(Vec2 a, Vec2 b, Vec2 c) {
   const Vec2 p = b - a, q = c - a;
   const double twice_area = 2 * cross(p, q);
@@ -14,6 +12,8 @@ Vec2 circumcentre(Vec2 a, Vec2 b, Vec2 c) {
   if (twice_area == 0) return (1.0 / 3) * (a + b + c);
   return a + Vec2{(q.y * pp - p.y * qq) / twice_area, (p.x * qq - q.x * pp) / twice_area};
 }
+
+namespace {
 
 /// The first fixed edge on the way from face f to the point c, or none where c is reached.
 HalfedgeId first_fixed_edge(const PlaneTriangulation& p, FaceId f, Vec2 c) {

@@ -10,6 +10,8 @@
 namespace isolod {
 inline namespace v1 {
 
+Vec2 circumcentre(Vec2 a, Vec2 b, Vec2 c);
+
 /// What the cells are made of, a value per face; good until the triangulation changes.
 struct CellCorners {
   Span<Vec2> centre;       ///< circumcentres

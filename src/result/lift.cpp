@@ -5,17 +5,33 @@ inline namespace v1 {
 
 namespace {
 
-void put(Span<double> positions, SampleId sample, Vec3 p) {
-  positions[3 * std::size_t{sample.value}] = p.x;
-  positions[3 * std::size_t{sample.value} + 1] = p.y;
-  positions[3 * std::size_t{sample.value} + 2] = p.z;
+/// The place at the origin of a halfedge, or part of the way along it, in its face.
+SurfacePlace place_on_halfedge(HalfedgeId h, double along) {
+  double w[3] = {0, 0, 0};
+  w[h.value % 3] = 1 - along;
+  w[next(h).value % 3] = along;
+  return {face(h), w[1], w[2]};
 }
 
-Vec3 on_edge(const Surface& surface, HalfedgeId h, double along) {
-  const Vec3 a = surface.position(surface.mesh.origin[h]), b = surface.position(surface.mesh.target(h));
-  if (along == 0) return a;
-  if (along == 1) return b;
-  return a + along * (b - a);
+bool is_on_feature(const Surface& surface, VertexId v) {
+  bool found = false;
+  visit_outgoing(surface.mesh, v, [&](HalfedgeId h) {
+    found = found || (surface.line[h] & line_feature) != 0 || (surface.line[prev(h)] & line_feature) != 0;
+  });
+  return found;
+}
+
+void put(Samples& samples, SampleId s, LineAnchor anchor, bool held) {
+  samples.anchor[s] = anchor;
+  samples.place[s] = place_on_halfedge(anchor.halfedge, anchor.along);
+  samples.held[s] = held;
+}
+
+Vec3 on_edge(const Surface& surface, const LineAnchor& anchor) {
+  const Vec3 a = surface.position(surface.mesh.origin[anchor.halfedge]);
+  const Vec3 b = surface.position(surface.mesh.target(anchor.halfedge));
+  if (anchor.along == 0) return a;
+  return anchor.along == 1 ? b : a + anchor.along * (b - a);
 }
 
 Vec3 on_face(const Surface& surface, const SurfacePlace& place) {
@@ -28,18 +44,38 @@ Vec3 on_face(const Surface& surface, const SurfacePlace& place) {
 
 }  // namespace
 
-void lift_samples(const SampledSurface& samples, Span<double> positions) {
-  const Surface& surface = *samples.surface;
-  const SampleNumbers& numbers = samples.numbers;
+Status gather_samples(const SampledSurface& sampled, Samples& samples, Arena& arena) {
+  const Surface& surface = *sampled.surface;
+  const SampleNumbers& numbers = sampled.numbers;
+  const std::size_t count = numbers.node_count + std::size_t{numbers.line_count} + sampled.places.count;
+  ISOLOD_TRY(arena.result(count, samples.place));
+  ISOLOD_TRY(arena.result(count, samples.anchor));
+  ISOLOD_TRY(arena.result(count, samples.held));
   for (std::uint32_t i = 0; i < numbers.node_count; ++i) {
-    put(positions, numbers.of_node(i), surface.position(samples.backbones->node[i]));
+    const VertexId v = sampled.backbones->node[i];
+    put(samples, numbers.of_node(i), {surface.mesh.outgoing[v], 0}, is_on_feature(surface, v));
   }
   for (std::uint32_t i = 0; i < numbers.line_count; ++i) {
-    const LinePlace& place = samples.lines->place[i];
-    put(positions, numbers.of_line(i), on_edge(surface, samples.backbones->edge[place.edge], place.along));
+    const LinePlace& place = sampled.lines->place[i];
+    const HalfedgeId h = sampled.backbones->edge[place.edge];
+    put(samples, numbers.of_line(i), {h, place.along}, (surface.line[h] & line_feature) != 0);
   }
-  for (std::uint32_t i = 0; i < samples.places.count; ++i) {
-    put(positions, numbers.of_surface(i), on_face(surface, samples.places[i]));
+  for (std::uint32_t i = 0; i < sampled.places.count; ++i) {
+    const SampleId s = numbers.of_surface(i);
+    samples.place[s] = sampled.places[i];
+    samples.anchor[s] = {none<HalfedgeId>(), 0};
+    samples.held[s] = 0;
+  }
+  return {};
+}
+
+void lift_samples(const Surface& surface, const Samples& samples, Span<double> positions) {
+  for (SampleId s : Ids<SampleId>(samples.count())) {
+    const Vec3 p = samples.held[s] ? on_edge(surface, samples.anchor[s]) : on_face(surface, samples.place[s]);
+    const std::size_t at = 3 * std::size_t{s.value};
+    positions[at] = p.x;
+    positions[at + 1] = p.y;
+    positions[at + 2] = p.z;
   }
 }
 

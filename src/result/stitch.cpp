@@ -110,6 +110,7 @@ Status Stitch::finish(Arena& arena) {
   if (out_.mesh.face_count() != face_capacity_) return fail(Status::invalid_result);
   ISOLOD_TRY(pair_seams(arena));
   link_vertices(out_.mesh);
+  for (std::uint8_t& bits : out_.fixed) bits = bits & line_feature;
   return mend_doubled_edges(arena);
 }
 

@@ -23,6 +23,7 @@ class Stitch {
   /// a doubled edge cannot be mended. Scratch 16 bytes a halfedge.
   Status finish(Arena& arena);
 
+  Triangulation& mesh() { return out_; }
   const Triangulation& mesh() const { return out_; }
 
  private:

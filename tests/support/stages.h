@@ -37,7 +37,8 @@ inline shapes::Shape scaled(shapes::Shape shape, double factor) {
   return shape;
 }
 
-/// A shape as a connected surface without lines. Set what the view lacks (tags, materials, density), then run the stages.
+/// A shape as a connected surface without lines. Set what the view lacks (tags, materials, density), then run the
+/// stages.
 class Prepared {
  public:
   explicit Prepared(shapes::Shape from) : shape_(std::move(from)), view(view_of(shape_)) {
@@ -89,13 +90,13 @@ struct Kept {
     sink.context = this;
     sink.begin = [](void* self, std::size_t, std::size_t) { return static_cast<Kept*>(self)->answer(); };
     sink.vertices = [](void* self, const double* xyz, std::size_t count) {
-      shapes::Shape& mesh = static_cast<Kept*>(self)->mesh;
-      mesh.positions.insert(mesh.positions.end(), xyz, xyz + 3 * count);
+      std::vector<double>& kept = static_cast<Kept*>(self)->mesh.positions;
+      kept.insert(kept.end(), xyz, xyz + 3 * count);
       return static_cast<Kept*>(self)->answer();
     };
     sink.triangles = [](void* self, const std::uint32_t* corners, std::size_t count) {
-      shapes::Shape& mesh = static_cast<Kept*>(self)->mesh;
-      mesh.triangles.insert(mesh.triangles.end(), corners, corners + 3 * count);
+      std::vector<std::uint32_t>& kept = static_cast<Kept*>(self)->mesh.triangles;
+      kept.insert(kept.end(), corners, corners + 3 * count);
       return static_cast<Kept*>(self)->answer();
     };
     return sink;

@@ -1,5 +1,6 @@
 #include "draw/camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace draw {

@@ -24,8 +24,8 @@ std::string hex(Colour colour);
 /// `part` of the way from a to b.
 Colour mix(Colour a, Colour b, double part);
 
-/// A surface of this colour in light of that strength: 0 in deep shade, 1 in full light. A few dozen steps, so that many
-/// triangles share a colour.
+/// A surface of this colour in light of that strength: 0 in deep shade, 1 in full light. A few dozen steps, so that
+/// many triangles share a colour.
 Colour lit(Colour base, double light);
 
 namespace palette {

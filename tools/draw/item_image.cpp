@@ -18,6 +18,12 @@ void ItemImage::paint(const ScreenPoint& a, const ScreenPoint& b, const ScreenPo
   });
 }
 
+double ItemImage::depth_at(double x, double y) const {
+  const bool is_inside = x >= 0 && y >= 0 && x < static_cast<double>(width_) && y < static_cast<double>(height_);
+  if (!is_inside) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(depth_[static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x)]);
+}
+
 bool ItemImage::shows(const ScreenPoint& p, double bias) const {
   const long x = std::lround(std::floor(p.x)), y = std::lround(std::floor(p.y));
   for (long j = y - 1; j <= y + 1; ++j) {

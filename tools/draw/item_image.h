@@ -28,6 +28,8 @@ class ItemImage {
 
   std::uint32_t item(std::size_t pixel) const { return item_[pixel]; }
   std::size_t pixel_count() const { return item_.size(); }
+  /// What is painted at a place; infinity where nothing is, or outside.
+  double depth_at(double x, double y) const;
 
   /// Whether a point no more than `bias` behind what is painted there or at the pixels beside it can be seen.
   bool shows(const ScreenPoint& p, double bias) const;

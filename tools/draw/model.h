@@ -32,8 +32,8 @@ Model model_of(isolod::Span<const double> positions, isolod::Span<const std::uin
 
 Bounds bounds_of(const Model& model);
 
-/// The same shape with fewer triangles, for looking only: vertices that share a cell of a grid become one, and the grid is
-/// coarsened until at most `most_faces` are left.
+/// The same shape with fewer triangles, for looking only: vertices that share a cell of a grid become one, and the grid
+/// is coarsened until at most `most_faces` are left.
 Model lightened(const Model& model, std::size_t most_faces);
 
 }  // namespace draw

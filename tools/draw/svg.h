@@ -1,7 +1,7 @@
 // A small writer of SVG: paths of whole numbers, a few attributes, plain text.
 //
-// Positions are in pixels with y down; the file counts in twentieths of a pixel, relative from point to point, so that a
-// triangle takes about 25 bytes. No locale is looked at.
+// Positions are in pixels with y down; the file counts in twentieths of a pixel, relative from point to point, so that
+// a triangle takes about 25 bytes. No locale is looked at.
 #pragma once
 
 #include <string>

@@ -1,0 +1,191 @@
+#include "relax/relaxation.h"
+
+#include "base/predicates.h"
+#include "base/sort.h"
+#include "plane/voronoi_cell.h"
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+
+constexpr std::uint32_t most_neighbours = 30;
+constexpr std::uint32_t most_halvings = 3;
+
+SampleId sample(VertexId v) { return {v.value}; }
+VertexId vertex(SampleId s) { return {s.value}; }
+
+}  // namespace
+
+/// A free sample and its neighbours in the plane, counterclockwise.
+struct Relaxation::Ring {
+  std::uint32_t count = 0;
+  FrameGround::LocalPlace place;
+  Vec2 centre;
+  double weight = 0;
+  Vec2 point[most_neighbours];
+  double point_weight[most_neighbours];
+  bool line_after[most_neighbours];  // the edge from neighbour i to the next is a line
+
+  Vec2 following(std::uint32_t i) const { return point[i + 1 == count ? 0 : i + 1]; }
+  double following_weight(std::uint32_t i) const { return point_weight[i + 1 == count ? 0 : i + 1]; }
+  bool holds(Vec2 p) const {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (!(orient2d(p, point[i], following(i)) > 0)) return false;
+    }
+    return true;
+  }
+};
+
+Status Relaxation::begin(const Surface& surface, const Frames& frames, Triangulation& mesh,
+                         const Samples& samples, const RelaxOptions& options, Arena& arena) {
+  surface_ = &surface;
+  frames_ = &frames;
+  mesh_ = &mesh;
+  samples_ = samples;
+  options_ = options;
+  ISOLOD_TRY(ground_.begin(surface, frames, arena));
+  std::size_t free_count = 0;
+  for (std::uint8_t h : samples.held) free_count += h == 0;
+  ISOLOD_TRY(arena.scratch(frames.frame.count + 1, start_));
+  ISOLOD_TRY(arena.scratch(free_count, free_));
+  ISOLOD_TRY(arena.scratch(free_count, resident_));
+  ISOLOD_TRY(arena.scratch(samples.held.count, target_));
+  ISOLOD_TRY(arena.scratch(samples.held.count, has_target_));
+  std::size_t i = 0;
+  for (SampleId s : Ids<SampleId>(samples.held.count)) {
+    if (!samples.held[s]) free_[i++] = s;
+  }
+  return {};
+}
+
+void Relaxation::assign_homes() {
+  counting_sort<SampleId>(free_, resident_, start_, [&](SampleId s) { return home(s); });
+}
+
+/// False where the star reaches out of the selected frame.
+bool Relaxation::gather(VertexId v, bool with_weights, Ring& ring) const {
+  const Halfedges& mesh = mesh_->mesh;
+  const auto weigh = [&](const FrameGround::LocalPlace& place) {
+    const double d = ground_.density(place);
+    return options_.weight == LloydWeight::equal ? d * d : d;
+  };
+  ring.place = ground_.find(samples_, sample(v));
+  if (ring.place.is_none()) return false;
+  ring.centre = ground_.uv(ring.place);
+  if (with_weights) ring.weight = weigh(ring.place);
+  ring.count = 0;
+  const HalfedgeId first = mesh.outgoing[v];
+  HalfedgeId h = first;
+  do {
+    const FrameGround::LocalPlace place = ground_.find(samples_, sample(mesh.target(h)));
+    if (place.is_none() || ring.count == most_neighbours) return false;
+    ring.point[ring.count] = ground_.uv(place);
+    if (with_weights) ring.point_weight[ring.count] = weigh(place);
+    ring.line_after[ring.count++] = mesh_->is_fixed(next(h));
+    h = mesh.turn_left(h);
+  } while (!h.is_none() && h != first);
+  return !h.is_none();
+}
+
+/// The over-relaxed step to the centroid of the cell, cut by the lines of the star.
+bool Relaxation::find_target(VertexId v) {
+  Ring ring;
+  if (!gather(v, true, ring)) return false;
+  WeightedPolygon cell;
+  for (std::uint32_t i = 0; i < ring.count; ++i) {
+    const double weight = (ring.weight + ring.point_weight[i] + ring.following_weight(i)) / 3;
+    cell.corner[cell.count++] = {circumcentre(ring.centre, ring.point[i], ring.following(i)), weight};
+  }
+  for (std::uint32_t i = 0; i < ring.count; ++i) {
+    if (ring.line_after[i]) cell.clip(ring.point[i], ring.following(i));
+  }
+  const Moment moment = integrate(cell, ring.centre, ring.weight);
+  if (!(moment.mass > 0)) return false;
+  target_[v] = ring.centre + options_.step / moment.mass * moment.first;
+  return true;
+}
+
+void Relaxation::move(VertexId v, RelaxReport& report) {
+  Ring ring;
+  if (!gather(v, false, ring)) return;
+  const bool was_positive = ring.holds(ring.centre);
+  for (std::uint32_t halving = 0; halving <= most_halvings; ++halving) {
+    if (halving == 1) ++report.shortened;
+    const Vec2 target = target_[v];
+    target_[v] = 0.5 * (ring.centre + target);
+    if (was_positive && !ring.holds(target)) continue;
+    const FrameGround::LocalPlace place = ground_.walk(ring.place.face, target);
+    if (place.is_none()) continue;
+    samples_.place[sample(v)] = {place.face, place.w[1], place.w[2]};
+    ++report.moved;
+    return;
+  }
+}
+
+bool Relaxation::point_of(VertexId v, Vec2& point) const {
+  const FrameGround::LocalPlace place = ground_.find(samples_, sample(v));
+  if (place.is_none()) return false;
+  point = ground_.uv(place);
+  return true;
+}
+
+bool Relaxation::wants_flip(HalfedgeId h) const {
+  const Halfedges& mesh = mesh_->mesh;
+  const HalfedgeId g = mesh.twin[h];
+  Vec2 a, b, c, d;
+  if (!point_of(mesh.origin[h], a) || !point_of(mesh.origin[g], b)) return false;
+  if (!point_of(mesh.apex(h), c) || !point_of(mesh.apex(g), d)) return false;
+  if (!(orient2d(d, b, c) > 0) || !(orient2d(c, a, d) > 0)) return false;
+  const bool inverted = !(orient2d(a, b, c) > 0) || !(orient2d(b, a, d) > 0);
+  return (inverted || in_circle(a, b, c, d) > 0) && can_flip(*mesh_, h);
+}
+
+/// Every edge belongs to the lowest free sample among its ends and, where both are held, its apexes.
+void Relaxation::flip_around(VertexId v, RelaxReport& report) {
+  const Halfedges& mesh = mesh_->mesh;
+  const auto is_free = [&](VertexId w) { return !samples_.held[sample(w)]; };
+  for (std::uint32_t flips = 0; flips < most_neighbours; ++flips) {
+    HalfedgeId chosen = none<HalfedgeId>();
+    const HalfedgeId first = mesh.outgoing[v];
+    HalfedgeId h = first;
+    do {
+      const VertexId w = mesh.target(h);
+      if ((!is_free(w) || v < w) && !mesh.is_boundary(h) && !mesh_->is_fixed(h) && wants_flip(h)) chosen = h;
+      const HalfedgeId link = next(h);
+      if (!is_free(w) && !is_free(mesh.target(link)) && !mesh.is_boundary(link) && !mesh_->is_fixed(link)) {
+        const VertexId beyond = mesh.apex(mesh.twin[link]);
+        if ((!is_free(beyond) || v < beyond) && wants_flip(link)) chosen = link;
+      }
+      h = mesh.turn_left(h);
+    } while (chosen.is_none() && !h.is_none() && h != first);
+    if (chosen.is_none()) return;
+    flip(*mesh_, chosen);
+    ++report.flips;
+  }
+}
+
+RelaxReport Relaxation::iterate() {
+  RelaxReport report;
+  assign_homes();
+  for (std::uint32_t frame = 0; frame < frames_->frame.count; ++frame) {
+    ground_.select(frame);
+    for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
+      has_target_[resident_[i]] = find_target(vertex(resident_[i]));
+      report.homeless += !has_target_[resident_[i]];
+    }
+  }
+  for (std::uint32_t frame = 0; frame < frames_->frame.count; ++frame) {
+    ground_.select(frame);
+    for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
+      if (has_target_[resident_[i]]) move(vertex(resident_[i]), report);
+    }
+    for (std::uint32_t sweep = 0; sweep < 2; ++sweep) {
+      for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) flip_around(vertex(resident_[i]), report);
+    }
+  }
+  return report;
+}
+
+}  // namespace v1
+}  // namespace isolod

@@ -1,0 +1,61 @@
+// Relaxation of the whole mesh in overlapping charts: moves and flips, no seams.
+//
+// All free samples get their new places from their old ones, each in the map of its home: the centroid of its bounded Voronoi
+// cell, over-relaxed. Then, frame by frame, the moves are made, shortened or dropped where a face would not stay positive, and the
+// edges are flipped where the in-circle test in the home says so. Feature edges are fixed and samples on them are held. The mesh
+// is a valid manifold with the same count after every iteration.
+#pragma once
+
+#include "isolod/options.h"
+#include "mesh/triangulation.h"
+#include "relax/frame_ground.h"
+
+namespace isolod {
+inline namespace v1 {
+
+struct RelaxOptions {
+  LloydWeight weight = LloydWeight::equal;
+  double step = 1.8;  ///< times the way to the centroid
+};
+
+/// What one iteration came to.
+struct RelaxReport {
+  std::uint32_t moved = 0;
+  std::uint32_t homeless = 0;   ///< free samples whose star no frame holds
+  std::uint32_t shortened = 0;  ///< moves that were halved or dropped
+  std::uint32_t flips = 0;
+};
+
+class Relaxation {
+ public:
+  /// 28 bytes a sample and 4 a face of the surface of scratch stay with the caller's scope.
+  Status begin(const Surface& surface, const Frames& frames, Triangulation& mesh, const Samples& samples,
+               const RelaxOptions& options, Arena& arena);
+
+  RelaxReport iterate();
+
+ private:
+  struct Ring;
+  void assign_homes();
+  std::uint32_t home(SampleId s) const { return frames_->core_of_face[samples_.place[s].face]; }
+  bool gather(VertexId v, bool with_weights, Ring& ring) const;
+  bool find_target(VertexId v);
+  void move(VertexId v, RelaxReport& report);
+  void flip_around(VertexId v, RelaxReport& report);
+  bool wants_flip(HalfedgeId h) const;
+  bool point_of(VertexId v, Vec2& point) const;
+
+  const Surface* surface_ = nullptr;
+  const Frames* frames_ = nullptr;
+  Triangulation* mesh_ = nullptr;
+  Samples samples_;
+  RelaxOptions options_;
+  FrameGround ground_;
+  Span<std::uint32_t> start_;    // per frame, one more: its part of `resident_`
+  Span<SampleId> free_, resident_;
+  Span<Vec2> target_;
+  Span<std::uint8_t> has_target_;
+};
+
+}  // namespace v1
+}  // namespace isolod

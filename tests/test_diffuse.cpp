@@ -1,0 +1,169 @@
+#include "sample/diffuse.h"
+
+#include <cmath>
+#include <map>
+
+#include "support/stages.h"
+
+using namespace isolod;
+using support::Prepared;
+
+namespace {
+
+struct Diffused {
+  std::vector<std::uint32_t> count;  // per face
+  double rate = 0;                   // R_s
+  std::uint32_t total = 0;
+};
+
+/// A whole run of the sampling stages at this budget.
+Diffused diffused(Prepared& p, std::uint32_t budget) {
+  const Rates rates = solve_rates(integrate_density(p.surface), budget, Calibration::corrected);
+  const std::uint32_t nodes = static_cast<std::uint32_t>(p.backbones.node.count);
+  LineSamples lines;
+  REQUIRE(budget >= nodes);
+  REQUIRE(sample_lines(p.surface, p.backbones, rates.line, budget - nodes, lines, p.block.arena).is_ok());
+  Diffused out;
+  out.rate = rates.surface;
+  out.total = budget - nodes - static_cast<std::uint32_t>(lines.place.count);
+  out.count.assign(p.surface.mesh.face_count(), 12345);
+  const std::size_t used = p.block.arena.used();
+  REQUIRE(diffuse(p.surface, p.backbones, lines, rates.surface, out.total, {out.count.data(), out.count.size()},
+                  p.block.arena)
+              .is_ok());
+  CHECK(p.block.arena.used() == used);
+  return out;
+}
+
+std::uint64_t sum_of(const std::vector<std::uint32_t>& count) {
+  std::uint64_t sum = 0;
+  for (std::uint32_t c : count) sum += c;
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("diffuse: the sum is exactly right for any budget") {
+  for (const std::string name : {"sphere", "bracket", "plate", "cube", "lattice10", "saddle"}) {
+    CAPTURE(name);
+    Prepared p(name, 1500);
+    p.features(name == "bracket" || name == "cube" ? 30 : 0).chain();
+    for (std::uint32_t budget = 400; budget < 900; budget += 7) {
+      const Diffused d = diffused(p, budget);
+      REQUIRE(sum_of(d.count) == d.total);
+    }
+    for (const std::uint32_t budget : {1000U, 54321U, 1000000U}) {
+      const Diffused d = diffused(p, budget);
+      CHECK(sum_of(d.count) == d.total);
+    }
+  }
+}
+
+TEST_CASE("diffuse: tiny and huge numbers on surfaces without lines") {
+  for (const std::string name : {"sphere", "lattice10", "spheres500"}) {
+    Prepared p(name, 3000);
+    p.features().chain();
+    const LineSamples none{{p.backbones.start.data, 1}, {}};
+    std::vector<std::uint32_t> count(p.surface.mesh.face_count());
+    for (const std::uint32_t total : {0U, 1U, 2U, 3U, 499U, 500U, 501U, 100000U, 500000000U}) {
+      CAPTURE(name);
+      CAPTURE(total);
+      for (const double rate : {1e-6, 1.0, 1e6}) {  // a rate that does not fit the total is corrected
+        REQUIRE(
+            diffuse(p.surface, p.backbones, none, rate, total, {count.data(), count.size()}, p.block.arena).is_ok());
+        CHECK(sum_of(count) == total);
+      }
+    }
+  }
+}
+
+TEST_CASE("diffuse: counts over patches follow the wish") {
+  Prepared p("sphere", 20480);
+  p.features().chain();
+  for (const std::uint32_t budget : {500U, 5000U, 50000U}) {
+    CAPTURE(budget);
+    const Diffused d = diffused(p, budget);
+    std::map<int, double> wish, got;
+    for (FaceId f : Ids<FaceId>(p.surface.mesh.face_count())) {
+      const Vec3 at = p.surface.position(p.surface.mesh.origin[halfedge(f, 0)]);
+      const int patch = int(at.x > 0) + 2 * int(at.y > 0) + 4 * int(at.z > 0) + 8 * int(absolute(at.z) > 0.5);
+      wish[patch] += d.total * face_area(p.surface, f) / 12.5566;
+      got[patch] += d.count[f.value];
+    }
+    for (const auto& [patch, wished] : wish) {
+      CAPTURE(patch);
+      CHECK(absolute(got[patch] - wished) < 3 + 0.6 * std::sqrt(wished));
+    }
+  }
+}
+
+TEST_CASE("diffuse: counts follow a density that varies") {
+  Prepared p("head", 8000);
+  p.features().density(DensitySource::curvature, 1.5, 3).chain();
+  const Diffused d = diffused(p, 20000);
+  const DensityIntegrals integrals = integrate_density(p.surface);
+  std::map<int, double> wish, got;
+  for (FaceId f : Ids<FaceId>(p.surface.mesh.face_count())) {
+    const Vec3 at = p.surface.position(p.surface.mesh.origin[halfedge(f, 0)]);
+    const int patch =
+        int(at.x > 0) + 2 * int(at.y > 0) + 4 * int(at.z > 0) + 8 * int(p.surface.density(halfedge(f, 0)) > 20);
+    wish[patch] += d.total * face_density(p.surface, f) / integrals.surface;
+    got[patch] += d.count[f.value];
+  }
+  for (const auto& [patch, wished] : wish) CHECK(absolute(got[patch] - wished) < 3 + 0.6 * std::sqrt(wished));
+}
+
+TEST_CASE("diffuse: no face is more than the carried errors off, so a fine input gets at most one a face") {
+  Prepared p("torus", 8000);
+  p.features().chain();
+  const Diffused d = diffused(p, 1000);
+  std::size_t crowded = 0;
+  for (std::uint32_t c : d.count) crowded += c > 1;
+  CHECK(crowded == 0);
+  const Diffused fine = diffused(p, 80000);  // ten a face; two children hand on at most half a sample each
+  std::size_t far_off = 0;
+  for (FaceId f : Ids<FaceId>(p.surface.mesh.face_count())) {
+    far_off += absolute(fine.count[f.value] - fine.rate * face_area(p.surface, f)) > 2;
+  }
+  CHECK(far_off == 0);
+}
+
+TEST_CASE("diffuse: components get what they wish for, and one sample at most is carried between them") {
+  Prepared p("spheres500", 20000);
+  p.features().chain();
+  const Diffused d = diffused(p, 17777);
+  std::map<std::uint32_t, double> wish, got;
+  const std::size_t faces_each = p.surface.mesh.face_count() / 500;
+  for (FaceId f : Ids<FaceId>(p.surface.mesh.face_count())) {
+    const std::uint32_t sphere = static_cast<std::uint32_t>(f.value / faces_each);
+    wish[sphere] += face_area(p.surface, f);
+    got[sphere] += d.count[f.value];
+  }
+  double area = 0, worst = 0;
+  for (const auto& [sphere, a] : wish) area += a;
+  for (const auto& [sphere, a] : wish) worst = greater(worst, absolute(got[sphere] - d.total * a / area));
+  CHECK(worst <= 1.01);
+}
+
+TEST_CASE("diffuse: beside lines the samples on them are taken off, not far away") {
+  for (const std::size_t triangles :
+       {std::size_t(800), std::size_t(40000)}) {  // faces of a few samples, and the other way round
+    CAPTURE(triangles);
+    Prepared p("saddle", triangles);
+    p.features().chain();
+    const Diffused d = diffused(p, 4000);
+    std::map<int, double> wish, got;  // nine parts, the middle one without boundary
+    for (FaceId f : Ids<FaceId>(p.surface.mesh.face_count())) {
+      const Vec3 at = p.surface.position(p.surface.mesh.origin[halfedge(f, 0)]);
+      const auto third = [](double x) { return x < -0.5 ? 0 : x < 0.5 ? 1 : 2; };
+      const int part = third(at.x) + 3 * third(at.y);
+      wish[part] += d.rate * face_area(p.surface, f);
+      got[part] += d.count[f.value];
+    }
+    CHECK(absolute(got[4] - wish[4]) < 0.03 * wish[4]);
+    for (const int part : {0, 1, 2, 3, 5, 6, 7, 8}) {
+      CHECK(got[part] < wish[part]);
+      CHECK(got[part] > 0.8 * wish[part]);
+    }
+  }
+}

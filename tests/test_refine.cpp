@@ -1,0 +1,158 @@
+#include "surface/refine.h"
+
+#include <cmath>
+#include <map>
+
+#include "mesh/validate.h"
+#include "support/stages.h"
+
+using namespace isolod;
+using support::Prepared;
+
+namespace {
+
+struct Sums {
+  double area = 0, density = 0;
+  std::map<int, double> line_length;  // by kind
+  std::map<std::uint32_t, double> area_of_source;
+  std::int64_t euler = 0;
+};
+
+Sums sums_of(const Surface& s) {
+  Sums sums;
+  for (FaceId f : Ids<FaceId>(s.mesh.face_count())) {
+    sums.area += face_area(s, f);
+    sums.density += face_density(s, f);
+    sums.area_of_source[s.source_face[f]] += face_area(s, f);
+  }
+  for (HalfedgeId h : Ids<HalfedgeId>(s.mesh.halfedge_count())) {
+    if (s.line[h] != line_none) sums.line_length[s.line[h]] += edge_length(s, h);
+  }
+  sums.euler = integrate_density(s).euler_characteristic;
+  return sums;
+}
+
+void refine_all(Prepared& prepared, double line_rate, double limit = 1.25) {
+  Refine refine;
+  REQUIRE(refine.begin(prepared.surface, line_rate, limit, prepared.block.arena).is_ok());
+  while (!refine.done()) REQUIRE(refine.step(prepared.surface, prepared.block.arena).is_ok());
+}
+
+/// The longest edge in wished edge lengths.
+double longest(const Surface& s, double line_rate) {
+  double most = 0;
+  for (HalfedgeId h : Ids<HalfedgeId>(s.mesh.halfedge_count())) {
+    const double d = greater(s.density(h), s.density(next(h)));
+    most = greater(most, edge_length(s, h) * line_rate * square_root(d));
+  }
+  return most;
+}
+
+void check_refined(Prepared& p, double line_rate) {
+  const Sums before = sums_of(p.surface);
+  const std::size_t corners = integrate_density(p.surface).corner_count, faces = p.surface.mesh.face_count();
+  refine_all(p, line_rate);
+  const Sums after = sums_of(p.surface);
+  CHECK(p.surface.mesh.face_count() > faces);
+  Finding finding;
+  find_halfedge_defect(p.surface.mesh, finding);
+  CHECK(finding.defect == Defect::none);
+  REQUIRE(find_defect(p.surface.mesh.origin, {}, p.surface.mesh.vertex_count(), finding, p.block.arena).is_ok());
+  CHECK(finding.defect == Defect::none);
+  CHECK(longest(p.surface, line_rate) <= 1.25);
+  CHECK(after.area == doctest::Approx(before.area).epsilon(1e-12));
+  CHECK(after.density == doctest::Approx(before.density).epsilon(1e-6));
+  CHECK(after.euler == before.euler);
+  CHECK(integrate_density(p.surface).corner_count == corners);
+  CHECK(after.line_length.size() == before.line_length.size());
+  for (const auto& [kind, length] : before.line_length)
+    CHECK(after.line_length.at(kind) == doctest::Approx(length).epsilon(1e-12));
+  REQUIRE(after.area_of_source.size() == before.area_of_source.size());
+  for (const auto& [source, area] : before.area_of_source)
+    CHECK(after.area_of_source.at(source) == doctest::Approx(area).epsilon(1e-12));
+}
+
+}  // namespace
+
+TEST_CASE("refine: conforming, with area, lines, sources and corners kept, and no edge over the limit") {
+  for (const std::string name : {"cube", "tetrahedron", "plate2", "bracket", "tube200", "cylinder_open"}) {
+    CAPTURE(name);
+    Prepared p(name, 0);
+    p.features(30);
+    check_refined(p, name == "tube200" ? 2 : 7.3);
+  }
+}
+
+TEST_CASE("refine: the same with a density that varies by wedge") {
+  Prepared p("bracket", 500);
+  p.features(30).density(DensitySource::curvature, 1, 1);
+  check_refined(p, 6);
+}
+
+TEST_CASE("refine: faces keep their orientation") {
+  Prepared p("cube", 12);
+  p.features();
+  std::map<std::uint32_t, Vec3> normal;
+  for (FaceId f : Ids<FaceId>(p.surface.mesh.face_count()))
+    normal[p.surface.source_face[f]] = area_vector(p.surface, f);
+  refine_all(p, 10);
+  for (FaceId f : Ids<FaceId>(p.surface.mesh.face_count())) {
+    CHECK(dot(normal[p.surface.source_face[f]], area_vector(p.surface, f)) > 0);
+  }
+}
+
+TEST_CASE("refine: a midpoint has the mean density of its edge's ends, wedge by wedge") {
+  Prepared p("cube", 12);
+  p.features(30).density(DensitySource::curvature, 1);
+  Surface& s = p.surface;
+  for (HalfedgeId h : Ids<HalfedgeId>(s.mesh.halfedge_count())) {  // linear in space, another factor a side
+    const Vec3 at = s.position(s.mesh.origin[h]);
+    s.wedge_density[h] = static_cast<float>((4 + at.x + 0.5 * at.y) * (1 + s.source_face[face(h)] / 2));
+  }
+  refine_all(p, 3);
+  std::size_t wrong = 0;
+  for (HalfedgeId h : Ids<HalfedgeId>(s.mesh.halfedge_count())) {
+    const Vec3 at = s.position(s.mesh.origin[h]);
+    const double wanted = (4 + at.x + 0.5 * at.y) * (1 + s.source_face[face(h)] / 2);
+    wrong += absolute(s.density(h) - wanted) > 1e-5 * wanted;
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("refine: what is fine already stays as it is") {
+  Prepared p("sphere", 320);
+  p.features();
+  const VertexId* origin = p.surface.mesh.origin.data;
+  const std::size_t used = p.block.arena.used();
+  refine_all(p, 1e-3);
+  CHECK(p.surface.mesh.origin.data == origin);
+  CHECK(p.surface.mesh.face_count() == 320);
+  CHECK(p.block.arena.used() == used);
+}
+
+TEST_CASE("refine: twelve triangles become no more than a few for each wished one") {
+  Prepared p("cube", 12);
+  p.features(30);
+  check_refined(p, 25);
+  CHECK(p.surface.mesh.face_count() < 4 * 24 / (std::sqrt(3.0) / 4 / (25 * 25)));
+}
+
+TEST_CASE("refine: any arena does or fails cleanly") {
+  bool enough = false;
+  for (std::size_t bytes = 0; bytes < 400000; bytes += 4001) {
+    Prepared p("cube", 12);
+    p.features(30);
+    support::Block block(bytes);
+    Refine refine;
+    Status status = refine.begin(p.surface, 4, 1.25, block.arena);
+    const std::size_t back = block.arena.mark().back;
+    while (status.is_ok() && !refine.done()) {
+      status = refine.step(p.surface, block.arena);
+      REQUIRE(block.arena.mark().back == back);
+    }
+    if (enough) CHECK(status.is_ok());
+    enough = status.is_ok();
+    if (!enough) CHECK(status == Status::out_of_memory);
+  }
+  CHECK(enough);
+}

@@ -1,0 +1,103 @@
+#include "draw/page.h"
+
+namespace draw {
+
+namespace {
+
+constexpr double margin = 48;
+constexpr double greatest_width = 1100, greatest_height = 840;
+constexpr double legend_gap = 44;
+
+double page_height(const Frame& frame, const std::string& title, const std::vector<LegendItem>& legend) {
+  return frame.picture_height + legend_gap + legend_depth(frame.width - 2 * margin, title, legend) + 32;
+}
+
+using isolod::HalfedgeId;
+using isolod::Surface;
+
+/// Calls visit(halfedge, line bits) once for every line edge.
+template <class Visit>
+void each_line(const Surface& surface, Visit visit) {
+  for (HalfedgeId h : isolod::Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
+    const HalfedgeId twin = surface.mesh.twin[h];
+    if (surface.line[h] != isolod::line_none && (twin.is_none() || h < twin)) visit(h, surface.line[h]);
+  }
+}
+
+void add_edge(SurfaceLines& lines, const Surface& surface, HalfedgeId h) {
+  lines.add(surface.position(surface.mesh.origin[h]), surface.position(surface.mesh.target(h)));
+}
+
+}  // namespace
+
+Frame make_frame(const Surface& original, const PictureSettings& settings) {
+  const Model model = model_of(original);
+  const double* const t = settings.toward;
+  const double* const u = settings.up;
+  Frame frame;
+  frame.camera = settings.direction_given ? camera_from({t[0], t[1], t[2]}, {u[0], u[1], u[2]}) : choose_camera(model);
+  const ScreenPoint size = fit(frame.camera, model, greatest_width, greatest_height);
+  fit(frame.camera, model, greatest_width, size.y);
+  frame.camera.origin_x += margin;
+  frame.camera.origin_y += margin;
+  frame.width = greatest_width + 2 * margin;
+  frame.height = frame.picture_height = size.y + margin;
+  return frame;
+}
+
+Page::Page(const Frame& frame, const Model& model, std::string title, std::vector<LegendItem> legend)
+    : frame_(frame),
+      title_(std::move(title)),
+      legend_(std::move(legend)),
+      view_(model, frame.camera, frame.width, frame.height),
+      svg_(frame.width, page_height(frame, title_, legend_)) {}
+
+bool Page::write(const std::string& file) {
+  draw_legend(svg_, {margin, frame_.picture_height + legend_gap}, frame_.width - 2 * margin, title_, legend_);
+  return svg_.write(file);
+}
+
+FeatureLines::FeatureLines(const View& view, const Surface& surface)
+    : sharp_(view), boundary_(view), tagged_(view), corners_(view) {
+  each_line(surface, [&](HalfedgeId h, std::uint8_t kind) {
+    if (kind & isolod::line_boundary)
+      add_edge(boundary_, surface, h);
+    else if (kind & isolod::line_tagged)
+      add_edge(tagged_, surface, h);
+    else if (kind & isolod::line_sharp)
+      add_edge(sharp_, surface, h);
+  });
+  for (isolod::VertexId v : isolod::Ids<isolod::VertexId>(surface.corner.count)) {
+    if (surface.corner[v]) corners_.add(surface.position(v));
+  }
+}
+
+void FeatureLines::draw(Svg& svg, double width) const {
+  sharp_.draw(svg, palette::sharp, width);
+  tagged_.draw(svg, palette::tagged, width);
+  boundary_.draw(svg, palette::boundary, width);
+}
+
+std::vector<LegendItem> FeatureLines::legend(const Surface& surface) {
+  std::uint8_t kinds = 0;
+  std::size_t corners = 0;
+  each_line(surface, [&](HalfedgeId, std::uint8_t kind) { kinds = static_cast<std::uint8_t>(kinds | kind); });
+  for (std::uint8_t is_corner : surface.corner) corners += is_corner;
+  std::vector<LegendItem> items;
+  if (kinds & isolod::line_sharp) items.push_back({Mark::line, palette::sharp, "sharp"});
+  if (kinds & isolod::line_tagged) items.push_back({Mark::line, palette::tagged, "tagged"});
+  if (kinds & isolod::line_boundary) items.push_back({Mark::line, palette::boundary, "boundary"});
+  if (corners > 0)
+    items.push_back({Mark::spot, palette::corner, grouped(corners) + (corners == 1 ? " corner" : " corners")});
+  return items;
+}
+
+SurfaceLines seam_lines(const View& view, const Surface& surface) {
+  SurfaceLines lines(view);
+  each_line(surface, [&](HalfedgeId h, std::uint8_t kind) {
+    if ((kind & isolod::line_feature) == 0) add_edge(lines, surface, h);
+  });
+  return lines;
+}
+
+}  // namespace draw

@@ -1,0 +1,211 @@
+#include "draw/surface_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/page.h"
+#include "result/lift.h"
+
+namespace draw {
+
+namespace {
+
+using isolod::Surface;
+
+constexpr std::size_t most_faces = 110000;  // more are thinned out, for the file's sake
+
+FaceLook plain_look(const View& view, double brightness) {
+  FaceLook look;
+  look.colour = [&view, brightness](std::size_t f) {
+    const Colour base = view.is_back(f) ? palette::inside : palette::clay;
+    return mix(lit(base, view.light(f)), palette::paper, brightness);
+  };
+  return look;
+}
+
+/// A colour's number for each chart, other than its neighbours' where that can be.
+std::vector<std::uint32_t> colour_charts(const Surface& surface, const isolod::Atlas& atlas) {
+  std::vector<std::uint32_t> taken(atlas.chart_count(), 0), colour(atlas.chart_count(), 0);
+  std::vector<std::vector<std::uint32_t>> neighbours(atlas.chart_count());
+  for (isolod::HalfedgeId h : isolod::Ids<isolod::HalfedgeId>(surface.mesh.halfedge_count())) {
+    if (surface.mesh.is_boundary(h)) continue;
+    const std::uint32_t a = atlas.chart_of_face[face(h)], b = atlas.chart_of_face[face(surface.mesh.twin[h])];
+    if (a != b) neighbours[a].push_back(b);
+  }
+  for (std::uint32_t c = 0; c < atlas.chart_count(); ++c) {
+    std::uint32_t best = 0;
+    for (std::uint32_t i = 0; i < chart_colour_count; ++i) {
+      best = (c + i) % chart_colour_count;
+      if ((taken[c] >> best & 1u) == 0) break;
+    }
+    colour[c] = best;
+    for (std::uint32_t n : neighbours[c]) taken[n] |= 1u << best;
+  }
+  return colour;
+}
+
+double spacing_in_pixels(const Frame& frame, const Model& model, std::size_t vertices) {
+  double area = 0;
+  for (std::size_t f = 0; f < model.face.size(); ++f) area += 0.5 * length(model.area_vector(f));
+  return frame.camera.scale * std::sqrt(1.1547 * area / static_cast<double>(std::max<std::size_t>(vertices, 1)));
+}
+
+std::string triangles_text(std::size_t count) { return grouped(count) + " triangles"; }
+
+}  // namespace
+
+bool draw_original(const std::string& file, const Frame& frame, const Surface& surface) {
+  const Model model = lightened(model_of(surface), most_faces);
+  Page page(frame, model, "Original: " + triangles_text(surface.mesh.face_count()), FeatureLines::legend(surface));
+  const FeatureLines features(page.view(), surface);
+  draw_faces(page.svg(), page.view(), plain_look(page.view(), 0));
+  draw_outline(page.svg(), page.view());
+  features.draw(page.svg(), 1.8);
+  features.draw_corners(page.svg(), 6);
+  return page.write(file);
+}
+
+bool draw_charts(const std::string& file, const Frame& frame, const Surface& surface, const isolod::Atlas& atlas) {
+  const Model model = lightened(model_of(surface), most_faces);
+  std::vector<LegendItem> legend = FeatureLines::legend(surface);
+  legend.insert(legend.begin(), LegendItem{Mark::line, palette::seam, "seam"});
+  Page page(frame, model, "Charts: " + grouped(atlas.chart_count()), legend);
+  const View& view = page.view();
+  const std::vector<std::uint32_t> colour = colour_charts(surface, atlas);
+  FaceLook look;
+  look.colour = [&](std::size_t f) {
+    return lit(chart_colour(colour[atlas.chart_of_face[model.source[f]]]), 0.12 + 0.88 * view.light(f));
+  };
+  draw_faces(page.svg(), view, look);
+  draw_outline(page.svg(), view);
+  seam_lines(view, surface).draw(page.svg(), palette::seam, 1.0);
+  const FeatureLines features(view, surface);
+  features.draw(page.svg(), 1.8);
+  features.draw_corners(page.svg(), 6);
+  return page.write(file);
+}
+
+bool draw_samples(const std::string& file, const Frame& frame, const isolod::SampledSurface& samples) {
+  const Surface& surface = *samples.surface;
+  const Model model = lightened(model_of(surface), most_faces);
+  const std::size_t nodes = samples.numbers.node_count, lines = samples.numbers.line_count;
+  const std::size_t count = nodes + lines + samples.places.count;
+  std::vector<double> position(3 * count);
+  lift_samples(samples, {position.data(), position.size()});
+  Page page(frame, model, "Samples: " + grouped(count),
+            {{Mark::spot, palette::surface_sample, "on the surface"},
+             {Mark::spot, palette::line_sample, "on features"},
+             {Mark::spot, palette::seam_sample, "on seams"},
+             {Mark::spot, palette::corner, "at corners"}});
+  SurfaceSpots corner(page.view()), feature(page.view()), seam(page.view()), inner(page.view());
+  const auto at = [&](std::size_t i) { return Vec3{position[3 * i], position[3 * i + 1], position[3 * i + 2]}; };
+  for (std::size_t i = 0; i < nodes; ++i) (surface.corner[samples.backbones->node[i]] ? corner : seam).add(at(i));
+  for (std::size_t b = 0; b < samples.backbones->count(); ++b) {
+    SurfaceSpots& spots = is_feature(surface, *samples.backbones, b) ? feature : seam;
+    for (std::size_t i = samples.lines->start[b]; i < samples.lines->start[b + 1]; ++i) spots.add(at(nodes + i));
+  }
+  for (std::size_t i = nodes + lines; i < count; ++i) inner.add(at(i));
+  draw_faces(page.svg(), page.view(), plain_look(page.view(), 0.45));
+  draw_outline(page.svg(), page.view());
+  seam_lines(page.view(), surface).draw(page.svg(), palette::faint, 0.7);
+  const double diameter = std::clamp(0.4 * spacing_in_pixels(frame, model, count), 1.2, 6.5);
+  inner.draw(page.svg(), palette::surface_sample, diameter, 0);
+  seam.draw(page.svg(), palette::seam_sample, diameter, 0);
+  feature.draw(page.svg(), palette::line_sample, diameter * 1.1, 0);
+  corner.draw(page.svg(), palette::corner, std::max(diameter * 1.5, 4.5), 1);
+  return page.write(file);
+}
+
+bool draw_result(const std::string& file, const Frame& frame, const Model& result) {
+  const Model model = lightened(result, most_faces);
+  Page page(frame, model,
+            "Result: " + grouped(result.point.size()) + " vertices, " + triangles_text(result.face.size()), {});
+  FaceLook look = plain_look(page.view(), 0);
+  const double spacing = spacing_in_pixels(frame, result, result.point.size());
+  look.edge_width = std::clamp(0.055 * spacing, 0.1, 0.7);
+  look.edge = mix(palette::outline, palette::clay, 0.15);
+  draw_faces(page.svg(), page.view(), look);
+  draw_outline(page.svg(), page.view());
+  return page.write(file);
+}
+
+namespace {
+
+struct Irregular {
+  std::vector<std::uint32_t> five, seven, other;
+};
+
+/// By the number of edges at a vertex less that of a regular one: 6, on a boundary 4.
+Irregular find_irregular(const Model& model) {
+  std::vector<int> faces(model.point.size(), 0), open(model.point.size(), 0);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const std::array<std::uint32_t, 3>& face : model.face) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      ++faces[face[k]];
+      edges.emplace_back(std::min(face[k], face[(k + 1) % 3]), std::max(face[k], face[(k + 1) % 3]));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const bool is_single = (i == 0 || edges[i - 1] != edges[i]) && (i + 1 == edges.size() || edges[i + 1] != edges[i]);
+    if (is_single) ++open[edges[i].first], ++open[edges[i].second];
+  }
+  Irregular found;
+  for (std::uint32_t v = 0; v < model.point.size(); ++v) {
+    const int excess = open[v] > 0 ? faces[v] - 3 : faces[v] - 6;
+    if (excess == -1)
+      found.five.push_back(v);
+    else if (excess == 1)
+      found.seven.push_back(v);
+    else if (excess != 0)
+      found.other.push_back(v);
+  }
+  return found;
+}
+
+bool has_thin_corner(const Model& model, std::size_t f) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 a = model.corner(f, (k + 1) % 3) - model.corner(f, k),
+               b = model.corner(f, (k + 2) % 3) - model.corner(f, k);
+    if (dot(a, b) > 0.8660254037844387 * length(a) * length(b)) return true;
+  }
+  return false;
+}
+
+void draw_vertices(Page& page, const std::vector<std::uint32_t>& vertices, Colour colour, double diameter) {
+  SurfaceSpots spots(page.view());
+  for (std::uint32_t v : vertices) spots.add(page.view().model().point[v]);
+  spots.draw(page.svg(), colour, diameter, 0.3);
+}
+
+}  // namespace
+
+bool draw_valence(const std::string& file, const Frame& frame, const Model& result) {
+  const Irregular irregular = find_irregular(result);
+  std::vector<std::uint8_t> thin(result.face.size(), 0);
+  std::size_t thin_count = 0;
+  for (std::size_t f = 0; f < thin.size(); ++f) thin_count += thin[f] = has_thin_corner(result, f);
+  Page page(frame, result, "Irregular vertices",
+            {{Mark::spot, palette::five, grouped(irregular.five.size()) + " of valence 5"},
+             {Mark::spot, palette::seven, grouped(irregular.seven.size()) + " of valence 7"},
+             {Mark::spot, palette::corner, grouped(irregular.other.size()) + " other"},
+             {Mark::area, palette::thin, grouped(thin_count) + " triangles with an angle under 30°"}});
+  const View& view = page.view();
+  FaceLook look;
+  look.colour = [&](std::size_t f) {
+    return thin[f] ? lit(palette::thin, 0.5 + 0.3 * view.light(f))
+                   : mix(lit(palette::clay, view.light(f)), palette::paper, 0.5);
+  };
+  const double spacing = spacing_in_pixels(frame, result, result.point.size());
+  look.edge_width = std::clamp(0.05 * spacing, 0.1, 0.6);
+  look.edge = rgb(0x9aa3b0);
+  draw_faces(page.svg(), view, look);
+  draw_outline(page.svg(), view);
+  const double diameter = std::clamp(0.5 * spacing, 1.8, 8.0);
+  draw_vertices(page, irregular.five, palette::five, diameter);
+  draw_vertices(page, irregular.seven, palette::seven, diameter);
+  draw_vertices(page, irregular.other, palette::corner, diameter);
+  return page.write(file);
+}
+
+}  // namespace draw

@@ -140,7 +140,7 @@ TEST_CASE("backbones: a loop with one corner begins and ends there") {
 
 TEST_CASE("backbones: a tag inside is a dart between two nodes") {
   Prepared saddle("saddle", 32);  // 5 by 5 vertices; the middle one is on no boundary
-  check_counts(saddle.features(), 4, 0, 4);
+  check_counts(saddle.features(0, 60), 4, 0, 4);
   const Surface& s = saddle.surface;
   std::uint32_t tag[2] = {0, 0};
   for (HalfedgeId h : Ids<HalfedgeId>(s.mesh.halfedge_count())) {
@@ -151,7 +151,7 @@ TEST_CASE("backbones: a tag inside is a dart between two nodes") {
   }
   saddle.view.tagged_edges = tag;
   saddle.view.tagged_edge_count = 1;
-  check_counts(saddle.features(), 5, 0, 4);
+  check_counts(saddle.features(0, 60), 5, 0, 4);
   CHECK(saddle.backbones.node.count == 6);
 }
 
@@ -165,7 +165,7 @@ TEST_CASE("backbones: with the seams of a real atlas, on any shape") {
     support::Block block(required_memory(view.vertex_count, view.triangle_count, options));
     Remesher remesher;
     REQUIRE(remesher.begin(view, options, {}, block.arena).is_ok());
-    while (remesher.report().stage_count < 8) REQUIRE(remesher.advance(0).is_ok());
+    support::advance_past(remesher, "lines");
     const Counts counts = check_backbones(remesher.state()->surface, remesher.state()->backbones);
     CHECK(counts.edges > 0);
   }

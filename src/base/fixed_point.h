@@ -11,10 +11,12 @@ using FixedCount = std::int64_t;
 
 constexpr FixedCount one_sample = FixedCount{1} << 32;
 
-/// Nearest fixed-point value; |x| must be below 2^30.
+/// Nearest fixed-point value, halves away from zero; |x| must be below 2^30. (Adding one half first would itself round.)
 inline FixedCount to_fixed(double x) {
   const double scaled = x * 4294967296.0;
-  return static_cast<FixedCount>(scaled < 0 ? scaled - 0.5 : scaled + 0.5);
+  const FixedCount whole = static_cast<FixedCount>(scaled);
+  const double rest = scaled - static_cast<double>(whole);
+  return whole + (rest >= 0.5) - (rest <= -0.5);
 }
 
 inline double to_double(FixedCount x) { return static_cast<double>(x) / 4294967296.0; }

@@ -127,6 +127,15 @@ Star look_around(const Triangulation& t, VertexId v) {
   return star;
 }
 
+/// Whether the lines at v let it go: none, or one that can go on between two of its neighbours. The end of a line, a branching,
+/// and a boundary vertex that a line reaches stay.
+bool may_leave(const Triangulation& t, VertexId v) {
+  const Star star = look_around(t, v);
+  const HalfedgeId out = t.mesh.outgoing[v];
+  if (t.mesh.is_boundary(out)) return star.fixed_count == (t.is_fixed(out) ? 1u : 0u);
+  return star.fixed_count == 0 || star.fixed_count == 2;
+}
+
 /// The two ends of the line through v become neighbours on it.
 void fix_between(Triangulation& t, VertexId p, VertexId q, std::uint8_t bits) {
   const HalfedgeId forth = find_halfedge(t.mesh, p, q), h = forth.is_none() ? find_halfedge(t.mesh, q, p) : forth;
@@ -173,6 +182,7 @@ HalfedgeId blocking_edge(const PlaneTriangulation& p, VertexId v) {
 
 bool take_out(PlaneTriangulation& p, VertexId v, EdgeStack& stack) {
   constexpr std::uint32_t most_detours = 8;
+  if (!may_leave(p.t, v)) return false;
   for (std::uint32_t detours = 0; detours <= most_detours;) {
     const Star star = look_around(p.t, v);
     if (remove_bare(p.t, v, star, stack)) return true;

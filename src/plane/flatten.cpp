@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t iterations_between_looks = 10;
 constexpr double good_mean_ratio = 1.03, good_share_over = 0.01;
-constexpr double bearable_mean_ratio = 1.15;
+constexpr double least_iterations = 40;
 constexpr double residual_reduction = 1e-10;
 
 Status fill_metric(const Surface& surface, const Chart& chart, ChartMetric& metric, Arena& arena) {
@@ -161,7 +161,7 @@ Status improve(const Chart& chart, const ChartMetric& metric, const FlattenOptio
   system.pin(p, q);
   ISOLOD_TRY(solver.begin(system, x, arena));
   verdict = MapVerdict::flipped;
-  const std::uint32_t most = 40 + static_cast<std::uint32_t>(3 * square_root((double)x.count));
+  const double most = least_iterations + options.iterations_per_diameter * square_root(static_cast<double>(x.count));
   for (std::uint32_t done = 0;; done += iterations_between_looks) {
     MapQuality quality = measure_map(mesh, metric, x);
     const bool last = done >= most || solver.converged(residual_reduction);
@@ -170,7 +170,7 @@ Status improve(const Chart& chart, const ChartMetric& metric, const FlattenOptio
       round_map(metric, mesh, x, uv);
       measure_stretch(mesh, metric, x, quality);
       if (is_locally_injective(mesh, uv)) {
-        const bool bearable = quality.mean_ratio <= bearable_mean_ratio &&
+        const bool bearable = quality.mean_ratio <= options.greatest_mean_ratio &&
                               quality.stretch_range() <= options.greatest_stretch_range;
         verdict = bearable ? MapVerdict::good : MapVerdict::distorted;
         return {};

@@ -20,7 +20,8 @@ inline Vec2 widen(Vec2f p) { return {static_cast<double>(p.x), static_cast<doubl
 
 struct FlattenOptions {
   double greatest_stretch_range = 40;
-  std::uint32_t most_iterations = 80;
+  double greatest_mean_ratio = 1.15;  ///< of the singular values, in a map that is as good as it gets
+  double iterations_per_diameter = 3;  ///< times the root of the number of vertices, and 40 more, are enough
 };
 
 /// Why a map was refused, or that it was not.

@@ -28,9 +28,9 @@ struct Frames {
 
 struct FrameOptions {
   double line_rate = 0;          ///< R_f
-  double samples_per_core = 150;
-  double overlap = 3.5;          ///< wished edge lengths
-  FlattenOptions flatten;
+  double samples_per_core = 60;
+  double overlap = 3;            ///< wished edge lengths
+  FlattenOptions flatten{1e4, 1.2, 3};  ///< the weight corrects the stretch; the rim of an overlap does not matter
 };
 
 /// A stage: begin, step until done, finish. Results: 4 bytes a face of the surface, and 10 a face and 12 a vertex of every frame.

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint32_t most_neighbours = 30;
 constexpr std::uint32_t most_halvings = 3;
+constexpr std::uint8_t most_hosts = 8;
 
 SampleId sample(VertexId v) { return {v.value}; }
 VertexId vertex(SampleId s) { return {s.value}; }
@@ -52,11 +53,24 @@ Status Relaxation::begin(const Surface& surface, const Frames& frames, Triangula
   ISOLOD_TRY(arena.scratch(free_count, resident_));
   ISOLOD_TRY(arena.scratch(samples.held.count, target_));
   ISOLOD_TRY(arena.scratch(samples.held.count, has_target_));
+  ISOLOD_TRY(arena.scratch(samples.held.count, guest_));
+  for (std::uint8_t& g : guest_) g = 0;
   std::size_t i = 0;
   for (SampleId s : Ids<SampleId>(samples.held.count)) {
     if (!samples.held[s]) free_[i++] = s;
   }
   return {};
+}
+
+/// Where the star reaches out of the frame that holds its core, the frames of the neighbours are tried, one an iteration.
+std::uint32_t Relaxation::home(SampleId s) const {
+  SampleId host = s;
+  std::uint32_t k = 0;
+  visit_outgoing(mesh_->mesh, vertex(s), [&](HalfedgeId h) {
+    const SampleId neighbour = sample(mesh_->mesh.target(h));
+    if (++k == guest_[s] && !samples_.held[neighbour]) host = neighbour;
+  });
+  return frames_->core_of_face[samples_.place[host].face];
 }
 
 void Relaxation::assign_homes() {
@@ -171,8 +185,11 @@ RelaxReport Relaxation::iterate() {
   for (std::uint32_t frame = 0; frame < frames_->frame.count; ++frame) {
     ground_.select(frame);
     for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
-      has_target_[resident_[i]] = find_target(vertex(resident_[i]));
-      report.homeless += !has_target_[resident_[i]];
+      const SampleId s = resident_[i];
+      has_target_[s] = find_target(vertex(s));
+      if (has_target_[s]) continue;
+      ++report.homeless;
+      guest_[s] = guest_[s] < most_hosts ? static_cast<std::uint8_t>(guest_[s] + 1) : std::uint8_t{0};
     }
   }
   for (std::uint32_t frame = 0; frame < frames_->frame.count; ++frame) {

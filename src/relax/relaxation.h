@@ -37,7 +37,7 @@ class Relaxation {
  private:
   struct Ring;
   void assign_homes();
-  std::uint32_t home(SampleId s) const { return frames_->core_of_face[samples_.place[s].face]; }
+  std::uint32_t home(SampleId s) const;
   bool gather(VertexId v, bool with_weights, Ring& ring) const;
   bool find_target(VertexId v);
   void move(VertexId v, RelaxReport& report);
@@ -55,6 +55,7 @@ class Relaxation {
   Span<SampleId> free_, resident_;
   Span<Vec2> target_;
   Span<std::uint8_t> has_target_;
+  Span<std::uint8_t> guest_;     // per sample: 0 at home in its core's frame, k in that of its k-th neighbour
 };
 
 }  // namespace v1

@@ -78,6 +78,15 @@ class Prepared {
   isolod::Backbones backbones;
 };
 
+/// Slices of a begun run until the stage of this name is done.
+inline void advance_past(isolod::Remesher& remesher, const std::string& stage) {
+  const auto passed = [&] {
+    const isolod::Report& report = remesher.report();
+    return report.stage_count > 0 && stage == report.stages[report.stage_count - 1].name;
+  };
+  while (!passed()) REQUIRE(remesher.advance(0).is_ok());
+}
+
 /// A sink that keeps what it is given, and counts its calls.
 struct Kept {
   shapes::Shape mesh;

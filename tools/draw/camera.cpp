@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace draw {
 
@@ -28,9 +29,69 @@ double base_share(const Model& model, int axis) {
   return all > 0 ? base / all : 0;
 }
 
+/// The sides that have one triangle.
+std::vector<std::array<Vec3, 2>> open_sides(const Model& model) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> faces;
+  for (const std::array<std::uint32_t, 3>& face : model.face) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = face[k], b = face[(k + 1) % 3];
+      ++faces[{std::min(a, b), std::max(a, b)}];
+    }
+  }
+  std::vector<std::array<Vec3, 2>> sides;
+  for (const auto& edge : faces) {
+    if (edge.second == 1) sides.push_back({model.point[edge.first.first], model.point[edge.first.second]});
+  }
+  return sides;
+}
+
+/// The part of the borders that lies at the lower end, if `up` is up.
+double standing_share(const Model& model, const std::vector<std::array<Vec3, 2>>& sides, Vec3 up) {
+  double low = dot(model.point[0], up), high = low, standing = 0, all = 0;
+  for (const Vec3& p : model.point) low = std::min(low, dot(p, up)), high = std::max(high, dot(p, up));
+  for (const std::array<Vec3, 2>& side : sides) {
+    const double size = distance(side[0], side[1]);
+    all += size;
+    if (dot(side[0], up) < low + 0.1 * (high - low)) standing += size;
+  }
+  return all > 0 ? standing / all : 0;
+}
+
+/// How far the surface is from being its own mirror image along an axis: its odd moments, 0 for a mirrored shape.
+double lopsidedness(const Model& model, int axis) {
+  Vec3 middle{0, 0, 0};
+  double all = 0;
+  const auto each = [&model](auto visit) {
+    for (std::size_t f = 0; f < model.face.size(); ++f) {
+      visit(length(model.area_vector(f)), 1.0 / 3 * (model.corner(f, 0) + model.corner(f, 1) + model.corner(f, 2)));
+    }
+  };
+  each([&](double area, Vec3 p) { middle = middle + area * p, all += area; });
+  middle = 1 / std::max(all, 1e-300) * middle;
+  double moment[4] = {0, 0, 0, 0};
+  each([&](double area, Vec3 p) {
+    const Vec3 q = p - middle;
+    const double x = along(q, axis), y = along(q, (axis + 1) % 3), z = along(q, (axis + 2) % 3);
+    moment[0] += area * x * x * x, moment[1] += area * x * y * y, moment[2] += area * x * z * z;
+    moment[3] += area * x * y * z;
+  });
+  return std::fabs(moment[0]) + std::fabs(moment[1]) + std::fabs(moment[2]) + std::fabs(moment[3]);
+}
+
+/// Open shapes stand on their borders where most of these lie at one end: cut-off necks and feet. Others stand on what
+/// is flat, and nothing that has a left and a right stands on one of them.
 Vec3 choose_up(const Model& model) {
-  const bool z_is_up = base_share(model, 2) > base_share(model, 1) + 0.01;
-  return z_is_up ? Vec3{0, 0, 1} : Vec3{0, 1, 0};
+  const std::vector<std::array<Vec3, 2>> sides = open_sides(model);
+  Vec3 best{0, 1, 0};
+  double most = 0.5;
+  for (const Vec3& up : {Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{0, -1, 0}, Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{-1, 0, 0}}) {
+    const double share = standing_share(model, sides, up);
+    if (share > most + 0.01) most = share, best = up;
+  }
+  if (most > 0.5) return best;
+  const bool lies_on_z = base_share(model, 2) > base_share(model, 1) + 0.01;
+  const bool y_is_sideways = lopsidedness(model, 1) < 0.1 * lopsidedness(model, 2);
+  return lies_on_z || y_is_sideways ? Vec3{0, 0, 1} : best;
 }
 
 /// The surface that this view shows, what is seen from the side counted less.
@@ -67,7 +128,7 @@ Camera camera_from(Vec3 toward, Vec3 up) {
 Camera choose_camera(const Model& model) {
   const Model light = lightened(model, 20000);
   const Vec3 up = choose_up(light);
-  const Vec3 east = up.z > 0 ? Vec3{1, 0, 0} : Vec3{0, 0, 1}, north = cross(up, east);
+  const Vec3 east = up.x != 0 ? Vec3{0, 1, 0} : Vec3{1, 0, 0}, north = cross(up, east);
   Camera best;
   double most = -1;
   for (int height = 0; height < 3; ++height) {

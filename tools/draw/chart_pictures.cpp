@@ -145,8 +145,8 @@ void draw_panels(Svg& svg, const PlaneFrame& frame, const ChartStory& story, std
   const double right = margin + (page_width - 2 * margin + gutter) / 2,
                below = margin + title_height + frame.height + gutter;
   Panel map(svg, frame, {margin, margin}, "Map of the original mesh, and the samples");
-  map.ground(story.map, rgb(0xf6f7f9));
-  map.edges(story.map, EdgeKind::inner, palette::faint, 0.5);
+  map.ground(story.map, rgb(0xf7f8fa));
+  map.edges(story.map, EdgeKind::inner, palette::faint, 0.7);
   map.inverted(story.map);
   map.lines(story.map);
   map.sites(story, story.before.point);

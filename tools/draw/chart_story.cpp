@@ -21,21 +21,13 @@ class Storyteller {
   Storyteller(const SampledSurface& samples, ChartStory& story) : samples_(samples), story_(story) {}
 
   void draw_map(const FlatChart& flat) {
-    const auto kind = [&](HalfedgeId h) {
-      const std::uint8_t line = samples_.surface->line[flat.chart.on_surface(h)];
-      return line == line_none ? EdgeKind::inner : (line & line_feature) ? EdgeKind::feature : EdgeKind::seam;
-    };
+    const auto kind = [&](HalfedgeId h) { return kind_of_line(samples_.surface->line[flat.chart.on_surface(h)]); };
     copy(flat.chart.mesh, flat.uv, kind, story_.map);
   }
 
   void draw_sites(const ChartSites& sites, PlaneDrawing& drawing) {
     const Halfedges& mesh = sites.plane.t.mesh;
-    const auto kind = [&](HalfedgeId h) {
-      if (!sites.plane.t.is_fixed(h)) return EdgeKind::inner;
-      const SampleId a = sites.sample[mesh.origin[h]], b = sites.sample[mesh.target(h)];
-      const bool is_feature = kind_of(a) != SiteKind::seam && kind_of(b) != SiteKind::seam;
-      return is_feature ? EdgeKind::feature : EdgeKind::seam;
-    };
+    const auto kind = [&](HalfedgeId h) { return kind_of_line(sites.plane.t.fixed[h]); };
     copy(mesh, sites.plane.point, kind, drawing);
   }
 
@@ -61,6 +53,10 @@ class Storyteller {
   }
 
  private:
+  static EdgeKind kind_of_line(std::uint8_t line) {
+    return line == line_none ? EdgeKind::inner : (line & line_feature) != 0 ? EdgeKind::feature : EdgeKind::seam;
+  }
+
   template <class Points, class Kind>
   static void copy(const Halfedges& mesh, const Points& point, Kind kind, PlaneDrawing& drawing) {
     drawing.point.assign(point.data, point.data + mesh.vertex_count());
@@ -86,26 +82,28 @@ class Storyteller {
     return is_feature(*samples_.surface, backbones, backbone) ? SiteKind::feature : SiteKind::seam;
   }
 
-  /// The dual of every inner edge that is not fixed, cut where a fixed edge hides a circumcentre.
+  /// The dual of every edge: between two circumcentres, or from one to the middle of a fixed edge; cut where a fixed
+  /// edge hides a circumcentre.
   void draw_voronoi(const ChartSites& sites, const CellCorners& corners) {
     const PlaneTriangulation& plane = sites.plane;
     const Halfedges& mesh = plane.t.mesh;
     for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
-      if (plane.t.is_fixed(h) || mesh.is_boundary(h) || mesh.twin[h] < h) continue;
-      const FaceId sides[2] = {face(h), face(mesh.twin[h])};
-      std::array<Vec2, 2> edge = {corners.centre[sides[0]], corners.centre[sides[1]]};
-      bool is_left = true;
-      for (FaceId side : sides) {
-        const HalfedgeId blind = corners.blind[side];
-        if (!blind.is_none())
-          is_left = is_left && cut(edge, plane.point[mesh.origin[blind]], plane.point[mesh.target(blind)]);
+      const bool is_border = plane.t.is_fixed(h) || mesh.is_boundary(h);
+      if (!is_border && mesh.twin[h] < h) continue;
+      const FaceId here = face(h), there = is_border ? here : face(mesh.twin[h]);
+      const Vec2 middle = 0.5 * (plane.point[mesh.origin[h]] + plane.point[mesh.target(h)]);
+      std::array<Vec2, 2> edge = {corners.centre[here], is_border ? middle : corners.centre[there]};
+      if (is_border && corners.blind[here] == h) continue;
+      if (cut(edge, plane, corners.blind[here]) && cut(edge, plane, corners.blind[there])) {
+        story_.voronoi.push_back(edge);
       }
-      if (is_left) story_.voronoi.push_back(edge);
     }
   }
 
-  /// Keeps what lies left of a b; false where nothing does.
-  static bool cut(std::array<Vec2, 2>& edge, Vec2 a, Vec2 b) {
+  /// Keeps what lies on the near side of `blind`; false where nothing does.
+  static bool cut(std::array<Vec2, 2>& edge, const PlaneTriangulation& plane, HalfedgeId blind) {
+    if (blind.is_none()) return true;
+    const Vec2 a = plane.point[plane.t.mesh.origin[blind]], b = plane.point[plane.t.mesh.target(blind)];
     const double from = cross(b - a, edge[0] - a), to = cross(b - a, edge[1] - a);
     if (from < 0 && to < 0) return false;
     if (from >= 0 && to >= 0) return true;

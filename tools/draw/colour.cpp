@@ -27,8 +27,10 @@ Colour mix(Colour a, Colour b, double part) {
 Colour lit(Colour base, double light) {
   constexpr double steps = 30;
   const double strength = std::round(std::clamp(light, 0.0, 1.0) * steps) / steps;
-  const Colour shade = mix(base, rgb(0x232c44), 0.72);
-  const Colour glow = mix(base, rgb(0xffffff), 0.72);
+  const Colour dark = {static_cast<std::uint8_t>(base.red * 0.42), static_cast<std::uint8_t>(base.green * 0.45),
+                       static_cast<std::uint8_t>(base.blue * 0.52)};
+  const Colour shade = mix(dark, rgb(0x3a4668), 0.22);
+  const Colour glow = mix(base, rgb(0xffffff), 0.66);
   constexpr double plain = 0.72;  // the strength that shows the colour as it is
   if (strength < plain) return mix(shade, base, strength / plain);
   return mix(base, glow, (strength - plain) / (1 - plain));

@@ -12,7 +12,7 @@ double text_width(const std::string& text) {
   for (char c : text) {
     if ((static_cast<unsigned char>(c) & 0xc0) == 0x80) continue;
     const bool is_narrow = c == ' ' || c == ',' || c == '.' || c == 'i' || c == 'l' || c == 't' || c == 'f' || c == 'r';
-    width += is_narrow ? 0.34 : 0.57;
+    width += is_narrow ? 0.34 : 0.61;
   }
   return width * text_size;
 }

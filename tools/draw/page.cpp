@@ -5,7 +5,7 @@ namespace draw {
 namespace {
 
 constexpr double margin = 48;
-constexpr double greatest_width = 1100, greatest_height = 840;
+constexpr double least_width = 720, greatest_width = 1100, greatest_height = 840;
 constexpr double legend_gap = 44;
 
 double page_height(const Frame& frame, const std::string& title, const std::vector<LegendItem>& legend) {
@@ -37,10 +37,11 @@ Frame make_frame(const Surface& original, const PictureSettings& settings) {
   Frame frame;
   frame.camera = settings.direction_given ? camera_from({t[0], t[1], t[2]}, {u[0], u[1], u[2]}) : choose_camera(model);
   const ScreenPoint size = fit(frame.camera, model, greatest_width, greatest_height);
-  fit(frame.camera, model, greatest_width, size.y);
+  const double width = std::max(size.x, least_width);
+  fit(frame.camera, model, width, size.y);
   frame.camera.origin_x += margin;
   frame.camera.origin_y += margin;
-  frame.width = greatest_width + 2 * margin;
+  frame.width = width + 2 * margin;
   frame.height = frame.picture_height = size.y + margin;
   return frame;
 }

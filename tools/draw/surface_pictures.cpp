@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "draw/page.h"
-#include "result/lift.h"
 
 namespace draw {
 
@@ -50,7 +49,35 @@ double spacing_in_pixels(const Frame& frame, const Model& model, std::size_t ver
   return frame.camera.scale * std::sqrt(1.1547 * area / static_cast<double>(std::max<std::size_t>(vertices, 1)));
 }
 
+Vec3 line_place(const isolod::SampledSurface& samples, const isolod::LinePlace& place) {
+  const isolod::HalfedgeId h = samples.backbones->edge[place.edge];
+  const Vec3 a = samples.surface->position(samples.surface->mesh.origin[h]);
+  return a + place.along * (samples.surface->position(samples.surface->mesh.target(h)) - a);
+}
+
+Vec3 surface_place(const Surface& surface, const isolod::SurfacePlace& place) {
+  const auto corner = [&](std::uint32_t k) { return surface.position(surface.mesh.origin[halfedge(place.face, k)]); };
+  const Vec3 a = corner(0);
+  return a + place.weight1 * (corner(1) - a) + place.weight2 * (corner(2) - a);
+}
+
 std::string triangles_text(std::size_t count) { return grouped(count) + " triangles"; }
+
+std::vector<LegendItem> sample_legend(const isolod::SampledSurface& samples) {
+  const Surface& surface = *samples.surface;
+  std::size_t corners = 0, features = 0;
+  for (const isolod::VertexId v : samples.backbones->node) corners += surface.corner[v] != 0;
+  for (std::size_t b = 0; b < samples.backbones->count(); ++b) {
+    if (is_feature(surface, *samples.backbones, b)) features += samples.lines->inner_count(b);
+  }
+  const std::size_t seams = samples.numbers.node_count - corners + samples.numbers.line_count - features;
+  std::vector<LegendItem> items = {
+      {Mark::spot, palette::surface_sample, grouped(samples.places.count) + " on the surface"}};
+  if (features > 0) items.push_back({Mark::spot, palette::line_sample, grouped(features) + " on features"});
+  if (seams > 0) items.push_back({Mark::spot, palette::seam_sample, grouped(seams) + " on seams"});
+  if (corners > 0) items.push_back({Mark::spot, palette::corner, grouped(corners) + " at corners"});
+  return items;
+}
 
 }  // namespace
 
@@ -90,21 +117,16 @@ bool draw_samples(const std::string& file, const Frame& frame, const isolod::Sam
   const Model model = lightened(model_of(surface), most_faces);
   const std::size_t nodes = samples.numbers.node_count, lines = samples.numbers.line_count;
   const std::size_t count = nodes + lines + samples.places.count;
-  std::vector<double> position(3 * count);
-  lift_samples(samples, {position.data(), position.size()});
-  Page page(frame, model, "Samples: " + grouped(count),
-            {{Mark::spot, palette::surface_sample, "on the surface"},
-             {Mark::spot, palette::line_sample, "on features"},
-             {Mark::spot, palette::seam_sample, "on seams"},
-             {Mark::spot, palette::corner, "at corners"}});
+  Page page(frame, model, "Samples: " + grouped(count), sample_legend(samples));
   SurfaceSpots corner(page.view()), feature(page.view()), seam(page.view()), inner(page.view());
-  const auto at = [&](std::size_t i) { return Vec3{position[3 * i], position[3 * i + 1], position[3 * i + 2]}; };
-  for (std::size_t i = 0; i < nodes; ++i) (surface.corner[samples.backbones->node[i]] ? corner : seam).add(at(i));
+  for (const isolod::VertexId v : samples.backbones->node) (surface.corner[v] ? corner : seam).add(surface.position(v));
   for (std::size_t b = 0; b < samples.backbones->count(); ++b) {
     SurfaceSpots& spots = is_feature(surface, *samples.backbones, b) ? feature : seam;
-    for (std::size_t i = samples.lines->start[b]; i < samples.lines->start[b + 1]; ++i) spots.add(at(nodes + i));
+    for (std::size_t i = samples.lines->start[b]; i < samples.lines->start[b + 1]; ++i) {
+      spots.add(line_place(samples, samples.lines->place[i]));
+    }
   }
-  for (std::size_t i = nodes + lines; i < count; ++i) inner.add(at(i));
+  for (const isolod::SurfacePlace& place : samples.places) inner.add(surface_place(surface, place));
   draw_faces(page.svg(), page.view(), plain_look(page.view(), 0.45));
   draw_outline(page.svg(), page.view());
   seam_lines(page.view(), surface).draw(page.svg(), palette::faint, 0.7);

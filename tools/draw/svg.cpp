@@ -53,9 +53,9 @@ PathData::Point PathData::rounded(Vec2 p) { return {std::lround(p.x * units), st
 
 /// The command's letter is left out where the one before goes on.
 void PathData::put(char command, Point p) {
-  const bool goes_on = command == 'l' && (last_ == 'l' || last_ == 'm' || last_ == 'M');
+  const bool goes_on = command == 'l' && (last_ == 'l' || last_ == 'm');
   if (!goes_on) text_ += command;
-  const long x = command == 'M' ? p.x : p.x - pen_.x, y = command == 'M' ? p.y : p.y - pen_.y;
+  const long x = p.x - pen_.x, y = p.y - pen_.y;
   if (goes_on && x >= 0) text_ += ' ';
   append(text_, x);
   if (y >= 0) text_ += ' ';
@@ -65,7 +65,7 @@ void PathData::put(char command, Point p) {
 }
 
 void PathData::move_to(Vec2 p) {
-  put(text_.empty() ? 'M' : 'm', rounded(p));
+  put('m', rounded(p));  // the first counts from the origin
   start_ = pen_;
 }
 

@@ -102,7 +102,7 @@ double View::light(std::size_t f) const {
   const double sky = 0.5 + 0.5 * y;
   const double side = std::max(0.0, 0.9 * x - 0.1 * y + 0.4 * z);
   const double open = 1 - 0.85 * hollowness(f, normal);
-  return (0.10 + 0.66 * main + 0.14 * sky + 0.08 * side) * open;
+  return (0.20 + 0.58 * main + 0.12 * sky + 0.10 * side) * open;
 }
 
 }  // namespace draw

@@ -77,23 +77,40 @@ TEST_CASE("diffuse: tiny and huge numbers on surfaces without lines") {
   }
 }
 
-TEST_CASE("diffuse: counts over patches follow the wish") {
+/// The mean of (count - wish)^2 / wish over 16 patches of the unit sphere: 1 is what independent random samples have.
+double patch_error(Prepared& sphere, std::uint32_t budget) {
+  const Diffused d = diffused(sphere, budget);
+  std::map<int, double> wish, got;
+  double area = 0, error = 0;
+  for (FaceId f : Ids<FaceId>(sphere.surface.mesh.face_count())) {
+    const Vec3 at = sphere.surface.position(sphere.surface.mesh.origin[halfedge(f, 0)]);
+    const int patch = int(at.x > 0) + 2 * int(at.y > 0) + 4 * int(at.z > 0) + 8 * int(absolute(at.z) > 0.5);
+    area += face_area(sphere.surface, f);
+    wish[patch] += face_area(sphere.surface, f);
+    got[patch] += d.count[f.value];
+  }
+  for (const auto& [patch, a] : wish) {
+    const double wished = d.total * a / area;
+    error += (got[patch] - wished) * (got[patch] - wished) / wished;
+  }
+  return error / double(wish.size());
+}
+
+TEST_CASE("diffuse: counts over patches follow the wish much closer than chance") {
   Prepared p("sphere", 20480);
   p.features().chain();
-  for (const std::uint32_t budget : {500U, 5000U, 50000U}) {
+  for (const std::uint32_t budget : {2000U, 5000U, 20000U, 200000U}) {
     CAPTURE(budget);
-    const Diffused d = diffused(p, budget);
-    std::map<int, double> wish, got;
-    for (FaceId f : Ids<FaceId>(p.surface.mesh.face_count())) {
-      const Vec3 at = p.surface.position(p.surface.mesh.origin[halfedge(f, 0)]);
-      const int patch = int(at.x > 0) + 2 * int(at.y > 0) + 4 * int(at.z > 0) + 8 * int(absolute(at.z) > 0.5);
-      wish[patch] += d.total * face_area(p.surface, f) / 12.5566;
-      got[patch] += d.count[f.value];
-    }
-    for (const auto& [patch, wished] : wish) {
-      CAPTURE(patch);
-      CHECK(absolute(got[patch] - wished) < 3 + 0.6 * std::sqrt(wished));
-    }
+    CHECK(patch_error(p, budget) < 0.15);
+  }
+}
+
+TEST_CASE("diffuse: also where the mesh is much finer than the samples") {
+  Prepared p("sphere", 80000);
+  p.features().chain();
+  for (const std::uint32_t budget : {500U, 1000U, 2000U}) {
+    CAPTURE(budget);
+    CHECK(patch_error(p, budget) < 0.5);
   }
 }
 

@@ -1,7 +1,7 @@
 #include "result/stitch.h"
 
-#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "mesh/validate.h"
 #include "support/block.h"

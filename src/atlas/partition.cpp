@@ -70,7 +70,7 @@ void DualDistance::spread(FaceId seed, std::uint32_t label, Span<const std::uint
       const double d = entry.key + step_cost(h);
       // At a tie the new label wins: a face whose way leads over one that has just changed hands must follow it, also where
       // rounding has made its own distance no smaller, or its region would be torn.
-      if (d > distance_[g] || (d == distance_[g] && label_[g] == label)) continue;
+      if (!(d < distance_[g]) && !(d == distance_[g] && label_[g] != label)) continue;
       distance_[g] = d;
       label_[g] = label;
       heap_.push(g.value, d);

@@ -15,7 +15,7 @@ namespace {
 
 using State = Remesher::State;
 
-std::uint32_t relax_iterations = getenv("RELAX") ? atoi(getenv("RELAX")) : 20;
+const std::uint32_t least_first_count = getenv("FIRST") ? atoi(getenv("FIRST")) : 1000;
 constexpr double refine_limit = 1.25;  // wished edge lengths
 
 std::uint64_t face_units(const State& s) { return s.surface.mesh.face_count(); }
@@ -66,7 +66,11 @@ Status step_calibrate(State& s, bool& done, std::uint64_t& units) {
   s.rates = solve_rates(integrals, s.options.vertex_count, s.options.calibration);
   units = face_units(s);
   done = true;
-  if (s.rates.line > 0) return {};
+  bool has_lines = false;
+  for (std::uint8_t l : s.surface.line) has_lines = has_lines || l != line_none;
+  s.plan = plan_levels(s.options.vertex_count, integrals.euler_characteristic, has_lines, least_first_count);
+  s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
+  if (s.rates.line > 0 && s.first_rates.line > 0) return {};
   return fail(Status::budget_too_small, Element::count, least_budget(s, integrals));
 }
 
@@ -81,8 +85,8 @@ Status step_refine(State& s, bool& done, std::uint64_t& units) {
 Status step_atlas(State& s, bool& done, std::uint64_t& units) {
   if (!s.stage_begun) {
     AtlasOptions options;
-    options.line_rate = s.rates.line;
-    options.surface_rate = s.rates.surface;
+    options.line_rate = s.first_rates.line;
+    options.surface_rate = s.first_rates.surface;
     units = 20 * face_units(s);
     return s.make_atlas.begin(s.surface, options, *s.arena);
   }
@@ -102,11 +106,11 @@ Status step_lines(State& s, bool& done, std::uint64_t& units) {
   if (s.options.calibration == Calibration::paper) {
     DensityIntegrals integrals = integrate_density(s.surface);
     integrals.corner_count = static_cast<std::uint32_t>(s.backbones.node.count);
-    s.rates = solve_rates(integrals, s.options.vertex_count, s.options.calibration);
+    s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
   }
-  const std::uint64_t budget = s.options.vertex_count, nodes = s.backbones.node.count;
+  const std::uint64_t budget = s.plan.first_count, nodes = s.backbones.node.count;
   const std::uint32_t room = budget > nodes ? static_cast<std::uint32_t>(budget - nodes) : 0;
-  const Status status = sample_lines(s.surface, s.backbones, s.rates.line, room, s.lines, *s.arena);
+  const Status status = sample_lines(s.surface, s.backbones, s.first_rates.line, room, s.lines, *s.arena);
   if (status == Status::budget_too_small) return fail(status.code, status.element, status.value + nodes);
   ISOLOD_TRY(status);
   s.numbers = {static_cast<std::uint32_t>(nodes), static_cast<std::uint32_t>(s.lines.place.count)};
@@ -128,13 +132,13 @@ void count_samples(State& s) {
 }
 
 Status step_diffuse(State& s, bool& done, std::uint64_t& units) {
-  const std::uint32_t surface_samples = s.options.vertex_count - s.numbers.node_count - s.numbers.line_count;
+  const std::uint32_t surface_samples = s.plan.first_count - s.numbers.node_count - s.numbers.line_count;
   ISOLOD_TRY(s.arena->result(surface_samples, s.places));
   ISOLOD_TRY(s.arena->result(s.atlas.chart_count() + 1, s.chart_start));
   const ScratchScope scope(*s.arena);
   Span<std::uint32_t> face_count;
   ISOLOD_TRY(s.arena->scratch(s.surface.mesh.face_count(), face_count));
-  ISOLOD_TRY(diffuse(s.surface, s.backbones, s.lines, s.rates.surface, surface_samples, face_count, *s.arena));
+  ISOLOD_TRY(diffuse(s.surface, s.backbones, s.lines, s.first_rates.surface, surface_samples, face_count, *s.arena));
   place_samples(s.surface, s.atlas, face_count, s.chart_start, s.places);
   count_samples(s);
   units = face_units(s) + surface_samples;
@@ -149,12 +153,12 @@ std::size_t result_face_count(const State& s) {
     if (is_boundary(s.surface, s.backbones, b)) boundary += s.lines.interval_count(s.surface, s.backbones, b);
   }
   const std::int64_t chi = integrate_density(s.surface).euler_characteristic;
-  const std::int64_t faces = 2 * std::int64_t{s.options.vertex_count} - boundary - 2 * chi;
+  const std::int64_t faces = 2 * std::int64_t{s.plan.first_count} - boundary - 2 * chi;
   return faces > 0 ? static_cast<std::size_t>(faces) : 0;
 }
 
 Status step_charts(State& s, bool& done, std::uint64_t& units) {
-  if (!s.stage_begun) ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.options.vertex_count, *s.arena));
+  if (!s.stage_begun) ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.plan.first_count, *s.arena));
   const ScratchScope scope(*s.arena);
   const std::size_t chart = s.piece++;
   FlatChart flat;
@@ -181,29 +185,18 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   return gather_samples(s.sampled(), s.samples, *s.arena);
 }
 
-Status step_frames(State& s, bool& done, std::uint64_t& units) {
+Status step_levels(State& s, bool& done, std::uint64_t& units) {
   if (!s.stage_begun) {
-    FrameOptions options;
+    LevelOptions options;
     options.line_rate = s.rates.line;
-    units = 20 * face_units(s);
-    return s.make_frames.begin(s.surface, options, *s.arena);
+    options.weight = s.options.weight;
+    if (getenv("COARSE")) options.coarse_iterations = atoi(getenv("COARSE"));
+    if (getenv("FINE")) options.fine_iterations = atoi(getenv("FINE"));
+    ISOLOD_TRY(s.levels.begin(s.surface, s.plan, options));
   }
+  ISOLOD_TRY(s.levels.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
   units = 4000;
-  if (!s.make_frames.done()) return s.make_frames.step(*s.arena);
-  done = true;
-  return s.make_frames.finish(s.frames, *s.arena);
-}
-
-Status step_relax(State& s, bool& done, std::uint64_t& units) {
-  if (!s.stage_begun) {
-    s.scratch_mark = s.arena->mark();
-    ISOLOD_TRY(s.relaxation.begin(s.surface, s.frames, s.stitch.mesh(), s.samples, {s.options.weight, 1.8}, *s.arena));
-  }
-  RelaxReport r = s.relaxation.iterate();
-  if (getenv("RELAX_DEBUG")) printf("moved %u homeless %u shortened %u flips %u\n", r.moved, r.homeless, r.shortened, r.flips);
-  units = 8 * std::uint64_t{s.options.vertex_count};
-  done = ++s.piece == relax_iterations;
-  if (done) s.arena->rewind_scratch(s.scratch_mark);
+  done = s.levels.done();
   return {};
 }
 
@@ -266,13 +259,6 @@ std::uint64_t hash_places(const State& s) {
     hash.add(p.face.value), hash.add(p.weight1), hash.add(p.weight2);
   });
 }
-std::uint64_t hash_frames(const State& s) {
-  ContentHash hash;
-  for (const Frame& frame : s.frames.frame) {
-    for (const Vec2f& p : frame.uv) hash.add(p.x), hash.add(p.y);
-  }
-  return hash.value();
-}
 std::uint64_t hash_samples(const State& s) {
   ContentHash hash;
   for (const SurfacePlace& p : s.samples.place) hash.add(p.face.value), hash.add(p.weight1), hash.add(p.weight2);
@@ -302,8 +288,7 @@ const StageEntry stage_entries[] = {
     {"diffuse", step_diffuse, hash_places, 0.02},
     {"charts", step_charts, hash_places, 0.4},
     {"stitch", step_stitch, hash_places, 0.02},
-    {"frames", step_frames, hash_frames, 0.3},
-    {"relax", step_relax, hash_samples, 0.2},
+    {"levels", step_levels, hash_samples, 0.5},
     {"lift", step_lift, hash_result, 0.01},
     {"validate", step_validate, hash_result, 0.01},
 };

@@ -3,9 +3,9 @@
 
 #include "isolod/remesh.h"
 #include "mesh/repair.h"
+#include "pipeline/levels.h"
 #include "pipeline/make_atlas.h"
 #include "plane/lloyd.h"
-#include "relax/relaxation.h"
 #include "result/stitch.h"
 #include "sample/calibrate.h"
 #include "sample/diffuse.h"
@@ -26,7 +26,6 @@ struct Remesher::State {
   bool stage_begun = false;
   double stage_start = 0;
   std::uint32_t piece = 0;  ///< of the stage: the next chart, the next iteration
-  ArenaMark scratch_mark;   ///< where the stage's scratch began
 
   Repair repair;
   RepairedMesh repaired;
@@ -43,9 +42,9 @@ struct Remesher::State {
   SampleNumbers numbers;
   Stitch stitch;
   Samples samples;
-  MakeFrames make_frames;
-  Frames frames;
-  Relaxation relaxation;
+  LevelPlan plan;
+  Rates first_rates;  ///< of the first mesh
+  Levels levels;
   Span<double> positions;
   Span<std::uint32_t> triangles;
 

@@ -27,16 +27,23 @@ void draw_faces(Svg& svg, const View& view, const FaceLook& look) {
 
 void draw_outline(Svg& svg, const View& view) {
   const Model& model = view.model();
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> turned;  // per edge: fronts less backs, or one face alone
+  struct Turn {
+    int fronts_less_backs = 0;
+    bool is_seen = false;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Turn> turns;
   for (std::size_t f = 0; f < model.face.size(); ++f) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = model.face[f][k], b = model.face[f][(k + 1) % 3];
-      turned[{std::min(a, b), std::max(a, b)}] += view.is_back(f) ? -1 : 1;
+      Turn& turn = turns[{std::min(a, b), std::max(a, b)}];
+      turn.fronts_less_backs += view.is_back(f) ? -1 : 1;
+      turn.is_seen = turn.is_seen || view.rank(f) != View::hidden;
     }
   }
   SurfaceLines lines(view);
-  for (const auto& edge : turned) {
-    const bool is_outline = edge.second > -2 && edge.second < 2;
+  for (const auto& edge : turns) {
+    const int turn = edge.second.fronts_less_backs;
+    const bool is_outline = turn > -2 && turn < 2 && edge.second.is_seen;
     if (is_outline) lines.add(model.point[edge.first.first], model.point[edge.first.second]);
   }
   lines.draw(svg, palette::outline, 0.8);

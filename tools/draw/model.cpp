@@ -82,6 +82,7 @@ Model lightened(const Model& model, std::size_t most_faces) {
   double pitch = bounds_of(model).diagonal() / std::sqrt(static_cast<double>(most_faces));
   Model light = snapped(model, pitch);
   for (int round = 0; round < 32 && light.face.size() > most_faces; ++round) light = snapped(model, pitch *= 1.2);
+  light.is_thinned = true;
   return light;
 }
 

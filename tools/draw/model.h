@@ -15,6 +15,7 @@ struct Model {
   std::vector<Vec3> point;
   std::vector<std::array<std::uint32_t, 3>> face;
   std::vector<std::uint32_t> source;  ///< per face: its number in the mesh that it was taken from
+  bool is_thinned = false;            ///< faces and vertices have not the numbers that they had there
 
   Vec3 corner(std::size_t f, std::size_t k) const { return point[face[f][k]]; }
   /// Twice the area of a face, along its normal.

@@ -5,7 +5,7 @@ namespace draw {
 namespace {
 
 constexpr double margin = 48;
-constexpr double least_width = 720, greatest_width = 1100, greatest_height = 840;
+constexpr double least_width = 820, greatest_width = 1100, greatest_height = 840;
 constexpr double legend_gap = 44;
 
 double page_height(const Frame& frame, const std::string& title, const std::vector<LegendItem>& legend) {
@@ -24,7 +24,8 @@ void each_line(const Surface& surface, Visit visit) {
   }
 }
 
-void add_edge(SurfaceLines& lines, const Surface& surface, HalfedgeId h) {
+void add_edge(SurfaceLines& lines, const View& view, const Surface& surface, HalfedgeId h) {
+  if (!may_show_edge(view, surface, h)) return;
   lines.add(surface.position(surface.mesh.origin[h]), surface.position(surface.mesh.target(h)));
 }
 
@@ -62,14 +63,14 @@ FeatureLines::FeatureLines(const View& view, const Surface& surface)
     : sharp_(view), boundary_(view), tagged_(view), corners_(view) {
   each_line(surface, [&](HalfedgeId h, std::uint8_t kind) {
     if (kind & isolod::line_boundary)
-      add_edge(boundary_, surface, h);
+      add_edge(boundary_, view, surface, h);
     else if (kind & isolod::line_tagged)
-      add_edge(tagged_, surface, h);
+      add_edge(tagged_, view, surface, h);
     else if (kind & isolod::line_sharp)
-      add_edge(sharp_, surface, h);
+      add_edge(sharp_, view, surface, h);
   });
   for (isolod::VertexId v : isolod::Ids<isolod::VertexId>(surface.corner.count)) {
-    if (surface.corner[v]) corners_.add(surface.position(v));
+    if (surface.corner[v] && view.may_show_vertex(v.value)) corners_.add(surface.position(v));
   }
 }
 
@@ -93,10 +94,15 @@ std::vector<LegendItem> FeatureLines::legend(const Surface& surface) {
   return items;
 }
 
+bool may_show_edge(const View& view, const Surface& surface, HalfedgeId h) {
+  const HalfedgeId twin = surface.mesh.twin[h];
+  return view.may_show_face(face(h).value) || (!twin.is_none() && view.may_show_face(face(twin).value));
+}
+
 SurfaceLines seam_lines(const View& view, const Surface& surface) {
   SurfaceLines lines(view);
   each_line(surface, [&](HalfedgeId h, std::uint8_t kind) {
-    if ((kind & isolod::line_feature) == 0) add_edge(lines, surface, h);
+    if ((kind & isolod::line_feature) == 0) add_edge(lines, view, surface, h);
   });
   return lines;
 }

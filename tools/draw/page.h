@@ -38,6 +38,9 @@ class FeatureLines {
   SurfaceSpots corners_;
 };
 
+/// Whether a face beside the edge can be seen.
+bool may_show_edge(const View& view, const isolod::Surface& surface, isolod::HalfedgeId h);
+
 /// Edges between charts that are no features.
 SurfaceLines seam_lines(const View& view, const isolod::Surface& surface);
 

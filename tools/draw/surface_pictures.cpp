@@ -101,7 +101,7 @@ bool draw_charts(const std::string& file, const Frame& frame, const Surface& sur
   const std::vector<std::uint32_t> colour = colour_charts(surface, atlas);
   FaceLook look;
   look.colour = [&](std::size_t f) {
-    return lit(chart_colour(colour[atlas.chart_of_face[model.source[f]]]), 0.12 + 0.88 * view.light(f));
+    return lit(chart_colour(colour[atlas.chart_of_face[model.source[f]]]), 0.28 + 0.72 * view.light(f));
   };
   draw_faces(page.svg(), view, look);
   draw_outline(page.svg(), view);
@@ -119,14 +119,20 @@ bool draw_samples(const std::string& file, const Frame& frame, const isolod::Sam
   const std::size_t count = nodes + lines + samples.places.count;
   Page page(frame, model, "Samples: " + grouped(count), sample_legend(samples));
   SurfaceSpots corner(page.view()), feature(page.view()), seam(page.view()), inner(page.view());
-  for (const isolod::VertexId v : samples.backbones->node) (surface.corner[v] ? corner : seam).add(surface.position(v));
+  for (const isolod::VertexId v : samples.backbones->node) {
+    if (page.view().may_show_vertex(v.value)) (surface.corner[v] ? corner : seam).add(surface.position(v));
+  }
   for (std::size_t b = 0; b < samples.backbones->count(); ++b) {
     SurfaceSpots& spots = is_feature(surface, *samples.backbones, b) ? feature : seam;
     for (std::size_t i = samples.lines->start[b]; i < samples.lines->start[b + 1]; ++i) {
-      spots.add(line_place(samples, samples.lines->place[i]));
+      const isolod::LinePlace& place = samples.lines->place[i];
+      if (may_show_edge(page.view(), surface, samples.backbones->edge[place.edge]))
+        spots.add(line_place(samples, place));
     }
   }
-  for (const isolod::SurfacePlace& place : samples.places) inner.add(surface_place(surface, place));
+  for (const isolod::SurfacePlace& place : samples.places) {
+    if (page.view().may_show_face(place.face.value)) inner.add(surface_place(surface, place));
+  }
   draw_faces(page.svg(), page.view(), plain_look(page.view(), 0.45));
   draw_outline(page.svg(), page.view());
   seam_lines(page.view(), surface).draw(page.svg(), palette::faint, 0.7);
@@ -144,8 +150,8 @@ bool draw_result(const std::string& file, const Frame& frame, const Model& resul
             "Result: " + grouped(result.point.size()) + " vertices, " + triangles_text(result.face.size()), {});
   FaceLook look = plain_look(page.view(), 0);
   const double spacing = spacing_in_pixels(frame, result, result.point.size());
-  look.edge_width = std::clamp(0.055 * spacing, 0.1, 0.7);
-  look.edge = mix(palette::outline, palette::clay, 0.15);
+  look.edge_width = std::clamp(0.045 * spacing, 0.1, 0.6);
+  look.edge = mix(palette::outline, palette::clay, 0.3);
   draw_faces(page.svg(), page.view(), look);
   draw_outline(page.svg(), page.view());
   return page.write(file);
@@ -196,7 +202,9 @@ bool has_thin_corner(const Model& model, std::size_t f) {
 
 void draw_vertices(Page& page, const std::vector<std::uint32_t>& vertices, Colour colour, double diameter) {
   SurfaceSpots spots(page.view());
-  for (std::uint32_t v : vertices) spots.add(page.view().model().point[v]);
+  for (std::uint32_t v : vertices) {
+    if (page.view().may_show_vertex(v)) spots.add(page.view().model().point[v]);
+  }
   spots.draw(page.svg(), colour, diameter, 0.3);
 }
 
@@ -204,13 +212,14 @@ void draw_vertices(Page& page, const std::vector<std::uint32_t>& vertices, Colou
 
 bool draw_valence(const std::string& file, const Frame& frame, const Model& result) {
   const Irregular irregular = find_irregular(result);
+  const auto count = [](const auto& list) { return grouped(list.size()); };
   std::vector<std::uint8_t> thin(result.face.size(), 0);
   std::size_t thin_count = 0;
   for (std::size_t f = 0; f < thin.size(); ++f) thin_count += thin[f] = has_thin_corner(result, f);
   Page page(frame, result, "Irregular vertices",
-            {{Mark::spot, palette::five, grouped(irregular.five.size()) + " of valence 5"},
-             {Mark::spot, palette::seven, grouped(irregular.seven.size()) + " of valence 7"},
-             {Mark::spot, palette::corner, grouped(irregular.other.size()) + " other"},
+            {{Mark::spot, palette::five, count(irregular.five) + " of valence 5"},
+             {Mark::spot, palette::seven, count(irregular.seven) + " of valence 7"},
+             {Mark::spot, palette::corner, count(irregular.other) + " others"},
              {Mark::area, palette::thin, grouped(thin_count) + " triangles with an angle under 30°"}});
   const View& view = page.view();
   FaceLook look;

@@ -60,7 +60,11 @@ void View::find_ranks() {
     behind.erase(std::unique(behind.begin() + static_cast<std::ptrdiff_t>(before), behind.end()), behind.end());
   }
   rank_.resize(count);
-  for (std::size_t f = 0; f < count; ++f) rank_[f] = seen[f] ? 0 : hidden;
+  vertex_seen_.assign(model_->point.size(), 0);
+  for (std::size_t f = 0; f < count; ++f) {
+    rank_[f] = seen[f] ? 0 : hidden;
+    for (std::uint32_t v : model_->face[f]) vertex_seen_[v] |= seen[f];
+  }
   bool changed = true;
   for (int round = 0; round < 24 && changed; ++round) {
     changed = false;

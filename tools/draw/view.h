@@ -29,7 +29,11 @@ class View {
 
   Vec2 place(Vec3 p) const;
   Vec2 vertex(std::uint32_t v) const { return {screen_[v].x, screen_[v].y}; }
+  /// Whether a point of the surface is in front. Near outlines that is a guess, so a face or vertex that it belongs to
+  /// should be asked first; these always say yes for a model that was thinned out.
   bool shows(Vec3 p) const;
+  bool may_show_face(std::size_t f) const { return model_->is_thinned || rank_[f] != hidden; }
+  bool may_show_vertex(std::size_t v) const { return model_->is_thinned || vertex_seen_[v] != 0; }
 
  private:
   ScreenPoint in_image(const ScreenPoint& p) const;
@@ -41,6 +45,7 @@ class View {
   std::vector<ScreenPoint> screen_;  // per vertex, in pixels of the picture
   ItemImage image_;
   std::vector<std::uint32_t> rank_;
+  std::vector<std::uint8_t> vertex_seen_;
   double bias_;
 };
 

@@ -1,0 +1,81 @@
+#include "pipeline/levels.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include "base/status.h"
+
+namespace isolod {
+inline namespace v1 {
+
+LevelPlan plan_levels(std::uint32_t vertex_count, std::int64_t euler_characteristic, bool has_lines,
+                      std::uint32_t least_first) {
+  LevelPlan plan;
+  plan.first_count = vertex_count;
+  if (has_lines) return plan;
+  std::int64_t factor = 1, first = vertex_count;
+  for (std::uint32_t splits = 1; splits <= LevelPlan::most_splits; ++splits) {
+    const std::int64_t wider = 4 * factor;
+    const std::int64_t coarser = (std::int64_t{vertex_count} + (wider - 1) * euler_characteristic) / wider;
+    if (coarser < std::int64_t{least_first} || coarser - euler_characteristic <= 0) break;
+    factor = wider;
+    first = coarser;
+    plan.splits = splits;
+  }
+  plan.first_count = static_cast<std::uint32_t>(first);
+  std::int64_t rest = std::int64_t{vertex_count} - (factor * first - (factor - 1) * euler_characteristic);
+  for (std::uint32_t level = 0; level <= plan.splits; ++level) {
+    plan.inserted[level] = static_cast<std::uint32_t>(rest / factor);
+    rest %= factor;
+    factor /= 4;
+  }
+  return plan;
+}
+
+Status Levels::begin(const Surface&, const LevelPlan& plan, const LevelOptions& options) {
+  plan_ = plan;
+  options_ = options;
+  level_ = iteration_ = 0;
+  phase_ = Phase::begin_frames;
+  return {};
+}
+
+Status Levels::step(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
+  const bool finest = level_ == plan_.splits;
+  switch (phase_) {
+    case Phase::begin_frames: {
+      FrameOptions options;
+      double coarseness = 1;
+      for (std::uint32_t l = level_; l < plan_.splits; ++l) coarseness *= 0.5;
+      options.line_rate = options_.line_rate * coarseness;
+      phase_ = Phase::make_frames;
+      return make_frames_.begin(surface, options, arena);
+    }
+    case Phase::make_frames:
+      if (!make_frames_.done()) return make_frames_.step(arena);
+      phase_ = Phase::insert;
+      return make_frames_.finish(frames_, arena);
+    case Phase::insert:
+      ISOLOD_TRY(insert_where_sparse(surface, frames_, plan_.inserted[level_], mesh, samples, arena));
+      phase_ = Phase::relax;
+      iteration_ = 0;
+      scratch_ = arena.mark();
+      return relaxation_.begin(surface, frames_, mesh, samples, {options_.weight, 1.8}, arena);
+    case Phase::relax:
+      last_report_ = relaxation_.iterate();
+      if (getenv("RELAX_DEBUG")) printf("level %u: moved %u homeless %u shortened %u flips %u\n", level_, last_report_.moved, last_report_.homeless, last_report_.shortened, last_report_.flips);
+      if (++iteration_ < (finest ? options_.fine_iterations : options_.coarse_iterations)) return {};
+      arena.rewind_scratch(scratch_);
+      phase_ = finest ? Phase::done : Phase::split;
+      return {};
+    case Phase::split:
+      ISOLOD_TRY(split_edges(surface, frames_, plan_.inserted[level_ + 1], mesh, samples, arena));
+      ++level_;
+      phase_ = Phase::begin_frames;
+      return {};
+    case Phase::done: return {};
+  }
+  return {};
+}
+
+}  // namespace v1
+}  // namespace isolod

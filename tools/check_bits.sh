@@ -42,7 +42,7 @@ build() {
   cmake -S . -B "$out/$1" -G Ninja -DISOLOD_WERROR="$strict" -DISOLOD_TESTS=OFF -DISOLOD_UNITY="$3" -DCMAKE_CXX_COMPILER="$2" \
     -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="$4" >"$out/$1.log" 2>&1 &&
     cmake --build "$out/$1" -j "$(jobs_here)" --target isolod_cli >>"$out/$1.log" 2>&1 && return 0
-  tail -n 30 "$out/$1.log"
+  grep -vE '^\[[0-9]+/[0-9]+\]' "$out/$1.log" | tail -n 20 | cut -c1-300
   bad "$1 does not build"
   return 1
 }

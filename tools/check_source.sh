@@ -52,7 +52,8 @@ ban() {
 }
 
 word='(^|[^A-Za-z0-9_.>])'
-ban "no heap" "$word(malloc|calloc|realloc|free|alloca|aligned_alloc|posix_memalign) *\(|${word}new +[A-Za-z(\[]|${word}delete( |\[)" \
+# Placement new on arena memory, `new (place) T`, is no heap; a real one would show among the object's symbols below.
+ban "no heap" "$word(malloc|calloc|realloc|free|alloca|aligned_alloc|posix_memalign) *\(|${word}new +[A-Za-z_:]|${word}delete( |\[)" \
   "= *delete;"
 ban "no exceptions, no RTTI" "$word(throw|try|catch|dynamic_cast|typeid)[ (;{<]"
 ban "no containers, strings, functions, threads of the standard library" \

@@ -181,6 +181,26 @@ Status improve(const Chart& chart, const ChartMetric& metric, const FlattenOptio
   }
 }
 
+/// A chart of one face is laid down as it is, its longest side along the first axis: rounding cannot turn it over there, however
+/// thin it is, so that splitting charts comes to an end.
+void lay_down_triangle(const Surface& surface, const Chart& chart, Span<Vec2f> uv) {
+  constexpr double least_height = 1e-12;  // of the width, where even the height in double precision is lost
+  HalfedgeId base{0};
+  const auto vector_of = [&](HalfedgeId h) {
+    return surface.position(chart.vertex[chart.mesh.target(h)]) - surface.position(chart.vertex[chart.mesh.origin[h]]);
+  };
+  for (HalfedgeId h : Ids<HalfedgeId>(3)) {
+    if (length(vector_of(h)) > length(vector_of(base))) base = h;
+  }
+  const Vec3 side = vector_of(base), other = -1.0 * vector_of(prev(base));
+  const double width = length(side), along = dot(side, other) / width;
+  const double height = greater(length(cross(side, other)) / width, least_height * width);
+  const float low = static_cast<float>(-0.5 * height);
+  uv[chart.mesh.origin[base]] = {static_cast<float>(-0.5 * width), low};
+  uv[chart.mesh.target(base)] = {static_cast<float>(0.5 * width), low};
+  uv[chart.mesh.apex(base)] = {static_cast<float>(along - 0.5 * width), -low};
+}
+
 }  // namespace
 
 Status flatten_chart(const Surface& surface, const Chart& chart, const FlattenOptions& options, Span<Vec2f> uv,
@@ -190,6 +210,11 @@ Status flatten_chart(const Surface& surface, const Chart& chart, const FlattenOp
   ISOLOD_TRY(measure_chart(chart.mesh, topology, arena));
   verdict = MapVerdict::not_planar;
   if (!topology.is_planar()) return {};
+  if (chart.mesh.face_count() == 1) {
+    lay_down_triangle(surface, chart, uv);
+    verdict = MapVerdict::good;
+    return {};
+  }
   ChartMetric metric;
   Span<Vec2> projected, unfolded;
   ISOLOD_TRY(fill_metric(surface, chart, metric, arena));

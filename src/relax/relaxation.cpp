@@ -1,3 +1,5 @@
+#include <cstdio>
+#include <cstdlib>
 #include "relax/relaxation.h"
 
 #include "base/predicates.h"
@@ -30,11 +32,16 @@ struct Relaxation::Ring {
 
   Vec2 following(std::uint32_t i) const { return point[i + 1 == count ? 0 : i + 1]; }
   double following_weight(std::uint32_t i) const { return point_weight[i + 1 == count ? 0 : i + 1]; }
-  bool holds(Vec2 p) const {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (!(orient2d(p, point[i], following(i)) > 0)) return false;
-    }
-    return true;
+  std::uint32_t positive_faces(Vec2 p) const {
+    std::uint32_t positive = 0;
+    for (std::uint32_t i = 0; i < count; ++i) positive += orient2d(p, point[i], following(i)) > 0;
+    return positive;
+  }
+  bool holds(Vec2 p) const { return positive_faces(p) == count; }
+  Vec2 mean() const {
+    Vec2 sum{0, 0};
+    for (std::uint32_t i = 0; i < count; ++i) sum = sum + point[i];
+    return (1.0 / count) * sum;
   }
 };
 
@@ -114,6 +121,10 @@ bool Relaxation::find_target(VertexId v) {
   for (std::uint32_t i = 0; i < ring.count; ++i) {
     if (ring.line_after[i]) cell.clip(ring.point[i], ring.following(i));
   }
+  if (!ring.holds(ring.centre)) {
+    target_[v] = ring.mean();
+    return true;
+  }
   const Moment moment = integrate(cell, ring.centre, ring.weight);
   if (!(moment.mass > 0)) return false;
   target_[v] = ring.centre + options_.step / moment.mass * moment.first;
@@ -123,12 +134,12 @@ bool Relaxation::find_target(VertexId v) {
 void Relaxation::move(VertexId v, RelaxReport& report) {
   Ring ring;
   if (!gather(v, false, ring)) return;
-  const bool was_positive = ring.holds(ring.centre);
+  const std::uint32_t positive = ring.positive_faces(ring.centre);
   for (std::uint32_t halving = 0; halving <= most_halvings; ++halving) {
     if (halving == 1) ++report.shortened;
     const Vec2 target = target_[v];
     target_[v] = 0.5 * (ring.centre + target);
-    if (was_positive && !ring.holds(target)) continue;
+    if (ring.positive_faces(target) < positive) continue;
     const FrameGround::LocalPlace place = ground_.walk(ring.place.face, target);
     if (place.is_none()) continue;
     samples_.place[sample(v)] = {place.face, place.w[1], place.w[2]};
@@ -192,6 +203,7 @@ RelaxReport Relaxation::iterate() {
       guest_[s] = guest_[s] < most_hosts ? static_cast<std::uint8_t>(guest_[s] + 1) : std::uint8_t{0};
     }
   }
+  if (getenv("HD")) for (SampleId s : free_) if (!has_target_[s]) { const std::uint32_t own = frames_->core_of_face[samples_.place[s].face]; std::uint32_t val=0; double longest=0; FaceId f0=samples_.place[s].face; Vec3 p0 = surface_->position(surface_->mesh.origin[halfedge(f0,0)]); visit_outgoing(mesh_->mesh, vertex(s), [&](HalfedgeId h){++val; FaceId f1=samples_.place[sample(mesh_->mesh.target(h))].face; longest=greater(longest, distance(p0, surface_->position(surface_->mesh.origin[halfedge(f1,0)])));}); printf("homeless %u frame %u faces %zu valence %u longest %.4f at %.3f %.3f %.3f\n", s.value, own, frames_->frame[own].face.count, val, longest, p0.x,p0.y,p0.z);}
   for (std::uint32_t frame = 0; frame < frames_->frame.count; ++frame) {
     ground_.select(frame);
     for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {

@@ -113,6 +113,7 @@ int command_remesh(const Arguments& arguments) {
   const isolod::WriteOptions format = write_options(output, arguments.has("--ascii"));
   OutputFile output_file(output);
   const bool pictures = arguments.has("--pictures");
+  if (pictures && !can_draw()) fail_usage("remesh: this isolod was built without pictures");
   if (pictures) make_folder(arguments.required_text("--pictures"));
   std::unique_ptr<OutputFile> report;
   if (arguments.has("--report")) report = std::make_unique<OutputFile>(arguments.required_text("--report"));
@@ -132,7 +133,10 @@ int command_remesh(const Arguments& arguments) {
   if (!outcome.status.is_ok()) fail_status(input, outcome.status);
   write_mesh_file(output_file, format, outcome.mesh);
   if (!arguments.has("--quiet")) print_summary(input, output, outcome);
-  if (pictures) draw_pictures(arguments.required_text("--pictures"), view, settings, outcome);
+  if (!pictures) return exit_ok;
+  const std::string folder = arguments.required_text("--pictures");
+  const std::size_t drawn = draw_pictures(folder, view, settings, outcome);
+  if (!arguments.has("--quiet")) std::printf("%s: %zu pictures\n", folder.c_str(), drawn);
   return exit_ok;
 }
 

@@ -5,6 +5,10 @@
 
 #include "isolod/failure.h"
 
+#if defined(ISOLOD_TOOL_DRAWS)
+#include "draw/draw.h"
+#endif
+
 namespace tool {
 
 void make_folder(const std::string& folder) {
@@ -16,8 +20,27 @@ void make_folder(const std::string& folder) {
   }
 }
 
-void draw_pictures(const std::string&, const isolod::MeshView&, const RunSettings&, const RunOutcome&) {
-  throw Failure{exit_code(isolod::Status::unsupported_feature), "this isolod was built without pictures"};
+#if defined(ISOLOD_TOOL_DRAWS)
+
+bool can_draw() { return true; }
+
+std::size_t draw_pictures(const std::string& folder, const isolod::MeshView& view, const RunSettings& settings,
+                          const RunOutcome& outcome) {
+  draw::PictureSettings drawing;
+  drawing.block_bytes = outcome.block_bytes;
+  const draw::PictureOutcome drawn = draw::draw_run(folder, view, settings.options, drawing);
+  if (!drawn.status.is_ok()) fail_status(drawn.unwritten.empty() ? folder : drawn.unwritten, drawn.status);
+  return drawn.files.size();
 }
+
+#else
+
+bool can_draw() { return false; }
+
+std::size_t draw_pictures(const std::string&, const isolod::MeshView&, const RunSettings&, const RunOutcome&) {
+  return 0;
+}
+
+#endif
 
 }  // namespace tool

@@ -15,7 +15,7 @@ namespace {
 
 using State = Remesher::State;
 
-const std::uint32_t least_first_count = getenv("FIRST") ? atoi(getenv("FIRST")) : 1000;
+const std::uint32_t least_first_count = getenv("FIRST") ? atoi(getenv("FIRST")) : 2000;
 constexpr double refine_limit = 1.25;  // wished edge lengths
 
 std::uint64_t face_units(const State& s) { return s.surface.mesh.face_count(); }
@@ -220,6 +220,7 @@ Status step_validate(State& s, bool& done, std::uint64_t& units) {
   Finding finding;
   ISOLOD_TRY(find_defect(s.triangles, s.positions, s.options.vertex_count, finding, *s.arena));
   if (finding.defect == Defect::none) return {};
+  printf("defect %s %u\n", name(finding.defect), finding.element);
   return fail(Status::invalid_result, Element::vertex, finding.element);
 }
 

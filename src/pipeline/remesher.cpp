@@ -124,7 +124,10 @@ Status remesh(const MeshView& view, const Options& options, const MeshSink& sink
 
 std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options) {
   const std::size_t samples = options.vertex_count;
-  return (std::size_t{1} << 20) + 120 * vertex_count + 400 * triangle_count + 2500 * samples;
+  // Refinement splits a triangle into pieces of about a wished edge length; long thin ones are the worst, up to root V pieces each.
+  const std::size_t refined = triangle_count + 6 * samples +
+                              static_cast<std::size_t>(0.25 * square_root(static_cast<double>(samples))) * triangle_count;
+  return (std::size_t{1} << 20) + 120 * vertex_count + 600 * refined + 2000 * samples;
 }
 
 }  // namespace v1

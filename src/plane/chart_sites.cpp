@@ -22,6 +22,10 @@ Status build_flat_chart(const Surface& surface, const Atlas& atlas, Span<const V
 
 namespace {
 
+/// Of an edge: a line sample that is nearer to an original vertex takes its place. Beside it, rounding would decide which way the
+/// edge between the two runs, and faces would be inverted.
+constexpr double nearest_to_vertex = 1e-9;
+
 /// Grows the triangulation of one chart's samples.
 class SiteBuilder {
  public:
@@ -154,8 +158,8 @@ class SiteBuilder {
       const double along = samples_.lines->place[i].along;
       const double part = forward ? along : 1 - along;
       const SampleId sample = samples_.numbers.of_line(i);
-      if (part == 0 || part == 1) {
-        const VertexId at = part == 0 ? a : b;
+      if (part < nearest_to_vertex || part > 1 - nearest_to_vertex) {
+        const VertexId at = part < 0.5 ? a : b;
         if (sites_.sample[at].is_none()) {
           sites_.sample[at] = sample;
           continue;

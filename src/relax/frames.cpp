@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t most_local_vertices = 65535;
 constexpr double overlap_per_split = 0.9;
-constexpr std::uint8_t most_splits = 12;
+constexpr std::uint8_t most_splits = 5;
 
 }  // namespace
 

@@ -1,10 +1,9 @@
-#include <cstdio>
-#include <cstdlib>
 #include "relax/relaxation.h"
 
 #include "base/predicates.h"
 #include "base/sort.h"
 #include "plane/voronoi_cell.h"
+#include "relax/descent.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -148,6 +147,34 @@ void Relaxation::move(VertexId v, RelaxReport& report) {
   }
 }
 
+/// A sample that no frame holds with its star goes half the way to the mean of its neighbours, where that does not turn a face
+/// against the surface more than it was.
+void Relaxation::move_in_space(VertexId v) {
+  const Halfedges& mesh = mesh_->mesh;
+  const Vec3 here = position_of(*surface_, samples_, sample(v));
+  Vec3 sum{0, 0, 0};
+  double count = 0;
+  visit_outgoing(mesh, v, [&](HalfedgeId h) {
+    sum = sum + position_of(*surface_, samples_, sample(mesh.target(h)));
+    count += 1;
+  });
+  const auto worst_turn = [&](Vec3 p, Vec3 normal) {
+    double worst = 1;
+    visit_outgoing(mesh, v, [&](HalfedgeId h) {
+      const Vec3 a = position_of(*surface_, samples_, sample(mesh.target(h))) - p;
+      const Vec3 b = position_of(*surface_, samples_, sample(mesh.apex(h))) - p;
+      const Vec3 n = cross(a, b);
+      const double size = length(n) * length(normal);
+      worst = smaller(worst, size > 0 ? dot(n, normal) / size : -1);
+    });
+    return worst;
+  };
+  SurfacePlace& place = samples_.place[sample(v)];
+  const SurfacePlace there = descend(*surface_, place.face, 0.5 * (here + (1 / count) * sum));
+  const double before = worst_turn(here, area_vector(*surface_, place.face));
+  if (worst_turn(position_of(*surface_, there), area_vector(*surface_, there.face)) >= before) place = there;
+}
+
 bool Relaxation::point_of(VertexId v, Vec2& point) const {
   const FrameGround::LocalPlace place = ground_.find(samples_, sample(v));
   if (place.is_none()) return false;
@@ -203,11 +230,14 @@ RelaxReport Relaxation::iterate() {
       guest_[s] = guest_[s] < most_hosts ? static_cast<std::uint8_t>(guest_[s] + 1) : std::uint8_t{0};
     }
   }
-  if (getenv("HD")) for (SampleId s : free_) if (!has_target_[s]) { const std::uint32_t own = frames_->core_of_face[samples_.place[s].face]; std::uint32_t val=0; double longest=0; FaceId f0=samples_.place[s].face; Vec3 p0 = surface_->position(surface_->mesh.origin[halfedge(f0,0)]); visit_outgoing(mesh_->mesh, vertex(s), [&](HalfedgeId h){++val; FaceId f1=samples_.place[sample(mesh_->mesh.target(h))].face; longest=greater(longest, distance(p0, surface_->position(surface_->mesh.origin[halfedge(f1,0)])));}); printf("homeless %u frame %u faces %zu valence %u longest %.4f at %.3f %.3f %.3f\n", s.value, own, frames_->frame[own].face.count, val, longest, p0.x,p0.y,p0.z);}
   for (std::uint32_t frame = 0; frame < frames_->frame.count; ++frame) {
     ground_.select(frame);
     for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
-      if (has_target_[resident_[i]]) move(vertex(resident_[i]), report);
+      if (has_target_[resident_[i]]) {
+        move(vertex(resident_[i]), report);
+      } else {
+        move_in_space(vertex(resident_[i]));
+      }
     }
     for (std::uint32_t sweep = 0; sweep < 2; ++sweep) {
       for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) flip_around(vertex(resident_[i]), report);

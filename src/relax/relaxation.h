@@ -41,6 +41,7 @@ class Relaxation {
   bool gather(VertexId v, bool with_weights, Ring& ring) const;
   bool find_target(VertexId v);
   void move(VertexId v, RelaxReport& report);
+  void move_in_space(VertexId v);
   void flip_around(VertexId v, RelaxReport& report);
   bool wants_flip(HalfedgeId h) const;
   bool point_of(VertexId v, Vec2& point) const;

@@ -2,6 +2,7 @@
 
 #include "base/sort.h"
 #include "base/status.h"
+#include "relax/descent.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -39,14 +40,17 @@ bool place_middle(const FrameGround& ground, const Samples& samples, SampleId a,
   return true;
 }
 
-/// Places all middles, frame by frame, each edge in the frame of one of its ends; what fits none starts in the face of its lower end.
+/// Places all middles, frame by frame, each edge in the frame of one of its ends; what fits none is brought down from the
+/// middle of its chord.
 Status place_middles(const Surface& surface, const Frames& frames, const Halfedges& mesh, const Samples& old,
                      const Middles& middles, Samples& samples, Arena& arena) {
   FrameGround ground;
   ISOLOD_TRY(ground.begin(surface, frames, arena));
   for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
     if (mesh.is_boundary(h) || h < mesh.twin[h]) {
-      samples.place[middles.of_halfedge[h]] = {old.place[SampleId{mesh.origin[h].value}].face, 1.0 / 3, 1.0 / 3};
+      const SampleId a{mesh.origin[h].value}, b{mesh.target(h).value};
+      const Vec3 middle = midpoint(position_of(surface, old, a), position_of(surface, old, b));
+      samples.place[middles.of_halfedge[h]] = descend(surface, old.place[a].face, middle);
     }
   }
   const auto frame_of = [&](VertexId v) { return frames.core_of_face[old.place[SampleId{v.value}].face]; };
@@ -129,14 +133,6 @@ Status split_edges(const Surface& surface, const Frames& frames, std::uint32_t s
 
 namespace {
 
-Vec3 position_of(const Surface& surface, const SurfacePlace& place) {
-  const Halfedges& mesh = surface.mesh;
-  const Vec3 a = surface.position(mesh.origin[halfedge(place.face, 0)]);
-  const Vec3 b = surface.position(mesh.origin[halfedge(place.face, 1)]);
-  const Vec3 c = surface.position(mesh.origin[halfedge(place.face, 2)]);
-  return a + place.weight1 * (b - a) + place.weight2 * (c - a);
-}
-
 double density_at(const Surface& surface, const SurfacePlace& place) {
   return (1 - place.weight1 - place.weight2) * surface.density(halfedge(place.face, 0)) +
          place.weight1 * surface.density(halfedge(place.face, 1)) +
@@ -165,19 +161,23 @@ FaceId heaviest_face(const Surface& surface, const Halfedges& mesh, const Sample
   return heaviest;
 }
 
-/// The middle of a face of the mesh, in the frame of its first corner; that corner's place where the frame does not hold it.
-SurfacePlace middle_of(FrameGround& ground, const Frames& frames, const Halfedges& mesh, const Samples& samples,
-                       FaceId f) {
+/// The middle of a face of the mesh, in the frame of its first corner; brought down from space where the frame does not hold it.
+SurfacePlace middle_of(const Surface& surface, FrameGround& ground, const Frames& frames, const Halfedges& mesh,
+                       const Samples& samples, FaceId f) {
   const SurfacePlace& corner = samples.place[SampleId{mesh.origin[halfedge(f, 0)].value}];
   ground.select(frames.core_of_face[corner.face]);
+  Vec3 middle{0, 0, 0};
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    middle = middle + (1.0 / 3) * position_of(surface, samples, SampleId{mesh.origin[halfedge(f, k)].value});
+  }
   Vec2 sum{0, 0};
   for (std::uint32_t k = 0; k < 3; ++k) {
     const FrameGround::LocalPlace place = ground.find(samples, SampleId{mesh.origin[halfedge(f, k)].value});
-    if (place.is_none()) return corner;
+    if (place.is_none()) return descend(surface, corner.face, middle);
     sum = sum + ground.uv(place);
   }
-  const FrameGround::LocalPlace middle = ground.walk(corner.face, (1.0 / 3) * sum);
-  return middle.is_none() ? corner : SurfacePlace{middle.face, middle.w[1], middle.w[2]};
+  const FrameGround::LocalPlace place = ground.walk(corner.face, (1.0 / 3) * sum);
+  return place.is_none() ? descend(surface, corner.face, middle) : SurfacePlace{place.face, place.w[1], place.w[2]};
 }
 
 }  // namespace
@@ -189,7 +189,7 @@ Status insert_where_sparse(const Surface& surface, const Frames& frames, std::ui
   ISOLOD_TRY(ground.begin(surface, frames, arena));
   for (std::uint32_t i = 0; i < count; ++i) {
     const FaceId f = heaviest_face(surface, mesh.mesh, samples);
-    const SurfacePlace place = middle_of(ground, frames, mesh.mesh, samples, f);
+    const SurfacePlace place = middle_of(surface, ground, frames, mesh.mesh, samples, f);
     const SampleId s{static_cast<std::uint32_t>(samples.count())};
     ++samples.place.count;
     ++samples.anchor.count;

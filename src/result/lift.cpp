@@ -27,21 +27,6 @@ void put(Samples& samples, SampleId s, LineAnchor anchor, bool held) {
   samples.held[s] = held;
 }
 
-Vec3 on_edge(const Surface& surface, const LineAnchor& anchor) {
-  const Vec3 a = surface.position(surface.mesh.origin[anchor.halfedge]);
-  const Vec3 b = surface.position(surface.mesh.target(anchor.halfedge));
-  if (anchor.along == 0) return a;
-  return anchor.along == 1 ? b : a + anchor.along * (b - a);
-}
-
-Vec3 on_face(const Surface& surface, const SurfacePlace& place) {
-  const Halfedges& mesh = surface.mesh;
-  const Vec3 a = surface.position(mesh.origin[halfedge(place.face, 0)]);
-  const Vec3 b = surface.position(mesh.origin[halfedge(place.face, 1)]);
-  const Vec3 c = surface.position(mesh.origin[halfedge(place.face, 2)]);
-  return a + place.weight1 * (b - a) + place.weight2 * (c - a);
-}
-
 }  // namespace
 
 Status gather_samples(const SampledSurface& sampled, Samples& samples, Arena& arena) {
@@ -71,7 +56,7 @@ Status gather_samples(const SampledSurface& sampled, Samples& samples, Arena& ar
 
 void lift_samples(const Surface& surface, const Samples& samples, Span<double> positions) {
   for (SampleId s : Ids<SampleId>(samples.count())) {
-    const Vec3 p = samples.held[s] ? on_edge(surface, samples.anchor[s]) : on_face(surface, samples.place[s]);
+    const Vec3 p = position_of(surface, samples, s);
     const std::size_t at = 3 * std::size_t{s.value};
     positions[at] = p.x;
     positions[at + 1] = p.y;

@@ -22,5 +22,11 @@ struct Samples {
   std::size_t count() const { return held.count; }
 };
 
+/// The point of a place, by its barycentric coordinates.
+Vec3 position_of(const Surface& surface, const SurfacePlace& place);
+
+/// Where a sample is in space, held or free.
+Vec3 position_of(const Surface& surface, const Samples& samples, SampleId s);
+
 }  // namespace v1
 }  // namespace isolod

@@ -63,7 +63,7 @@ double lopsidedness(const Model& model, int axis) {
   double all = 0;
   const auto each = [&model](auto visit) {
     for (std::size_t f = 0; f < model.face.size(); ++f) {
-      visit(length(model.area_vector(f)), 1.0 / 3 * (model.corner(f, 0) + model.corner(f, 1) + model.corner(f, 2)));
+      visit(length(model.area_vector(f)), model.middle(f));
     }
   };
   each([&](double area, Vec3 p) { middle = middle + area * p, all += area; });

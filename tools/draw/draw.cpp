@@ -58,7 +58,7 @@ class Artist {
   Status draw_middle(const Remesher::State& state) {
     const isolod::SampledSurface samples = state.sampled();
     ISOLOD_TRY(keep("2_charts.svg", draw_charts(path("2_charts.svg"), frame_, state.surface, state.atlas)));
-    ISOLOD_TRY(keep("3_samples.svg", draw_samples(path("3_samples.svg"), frame_, samples)));
+    ISOLOD_TRY(keep("3_samples.svg", draw_samples(path("3_samples.svg"), frame_, samples, state.options.vertex_count)));
     const std::size_t largest = greatest_chart(state, false), featured = greatest_chart(state, true);
     ISOLOD_TRY(draw_chart_of(state, largest));
     return featured == largest ? Status() : draw_chart_of(state, featured);

@@ -18,6 +18,7 @@ struct Model {
   bool is_thinned = false;            ///< faces and vertices have not the numbers that they had there
 
   Vec3 corner(std::size_t f, std::size_t k) const { return point[face[f][k]]; }
+  Vec3 middle(std::size_t f) const { return 1.0 / 3 * (corner(f, 0) + corner(f, 1) + corner(f, 2)); }
   /// Twice the area of a face, along its normal.
   Vec3 area_vector(std::size_t f) const;
 };

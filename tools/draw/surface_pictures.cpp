@@ -112,12 +112,14 @@ bool draw_charts(const std::string& file, const Frame& frame, const Surface& sur
   return page.write(file);
 }
 
-bool draw_samples(const std::string& file, const Frame& frame, const isolod::SampledSurface& samples) {
+bool draw_samples(const std::string& file, const Frame& frame, const isolod::SampledSurface& samples,
+                  std::size_t wished) {
   const Surface& surface = *samples.surface;
   const Model model = lightened(model_of(surface), most_faces);
   const std::size_t nodes = samples.numbers.node_count, lines = samples.numbers.line_count;
   const std::size_t count = nodes + lines + samples.places.count;
-  Page page(frame, model, "Samples: " + grouped(count), sample_legend(samples));
+  const std::string title = count < wished ? "Samples of the coarsest level: " : "Samples: ";
+  Page page(frame, model, title + grouped(count), sample_legend(samples));
   SurfaceSpots corner(page.view()), feature(page.view()), seam(page.view()), inner(page.view());
   for (const isolod::VertexId v : samples.backbones->node) {
     if (page.view().may_show_vertex(v.value)) (surface.corner[v] ? corner : seam).add(surface.position(v));

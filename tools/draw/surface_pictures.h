@@ -22,7 +22,9 @@ Frame make_frame(const isolod::Surface& original, const PictureSettings& setting
 bool draw_original(const std::string& file, const Frame& frame, const isolod::Surface& surface);
 bool draw_charts(const std::string& file, const Frame& frame, const isolod::Surface& surface,
                  const isolod::Atlas& atlas);
-bool draw_samples(const std::string& file, const Frame& frame, const isolod::SampledSurface& samples);
+/// `wished`: the vertices of the result, of which these samples may be a first part.
+bool draw_samples(const std::string& file, const Frame& frame, const isolod::SampledSurface& samples,
+                  std::size_t wished);
 bool draw_result(const std::string& file, const Frame& frame, const Model& result);
 bool draw_valence(const std::string& file, const Frame& frame, const Model& result);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace draw {
 
@@ -38,27 +37,36 @@ Vec2 View::place(Vec3 p) const {
 
 bool View::shows(Vec3 p) const { return image_.shows(in_image(camera_.project(p)), bias_); }
 
+/// Lists the pairs (a triangle that can be seen, one that is in front of it somewhere), and says which can be seen.
+std::vector<View::Pair> View::find_covers(std::vector<std::uint8_t>& seen) const {
+  for (std::size_t pixel = 0; pixel < image_.pixel_count(); ++pixel) {
+    if (image_.item(pixel) != ItemImage::nothing) seen[image_.item(pixel)] = 1;
+  }
+  std::vector<Pair> behind;
+  for (std::size_t f = 0; f < seen.size(); ++f) {
+    const std::array<std::uint32_t, 3>& corner = model_->face[f];
+    const std::ptrdiff_t before = static_cast<std::ptrdiff_t>(behind.size());
+    bool is_fine = true;
+    image_.cover(in_image(screen_[corner[0]]), in_image(screen_[corner[1]]), in_image(screen_[corner[2]]),
+                 [&](std::size_t pixel, double) {
+                   is_fine = false;
+                   const std::uint32_t front = image_.item(pixel);
+                   if (seen[f] && front != f) behind.emplace_back(static_cast<std::uint32_t>(f), front);
+                 });
+    // What falls between the pixels is seen if its middle is.
+    if (is_fine) seen[f] = !is_back(f) && shows(model_->middle(f));
+    std::sort(behind.begin() + before, behind.end());
+    behind.erase(std::unique(behind.begin() + before, behind.end()), behind.end());
+  }
+  return behind;
+}
+
 /// A triangle's rank is greater than that of any other that is in front of it somewhere. Where triangles
 /// cover one another in a ring, the bound on the rounds ends it.
 void View::find_ranks() {
   const std::size_t count = model_->face.size();
   std::vector<std::uint8_t> seen(count, 0);
-  for (std::size_t pixel = 0; pixel < image_.pixel_count(); ++pixel) {
-    if (image_.item(pixel) != ItemImage::nothing) seen[image_.item(pixel)] = 1;
-  }
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> behind;  // first is behind second
-  for (std::size_t f = 0; f < count; ++f) {
-    if (!seen[f]) continue;
-    const std::array<std::uint32_t, 3>& corner = model_->face[f];
-    const std::size_t before = behind.size();
-    image_.cover(in_image(screen_[corner[0]]), in_image(screen_[corner[1]]), in_image(screen_[corner[2]]),
-                 [&](std::size_t pixel, double) {
-                   const std::uint32_t front = image_.item(pixel);
-                   if (front != f) behind.emplace_back(static_cast<std::uint32_t>(f), front);
-                 });
-    std::sort(behind.begin() + static_cast<std::ptrdiff_t>(before), behind.end());
-    behind.erase(std::unique(behind.begin() + static_cast<std::ptrdiff_t>(before), behind.end()), behind.end());
-  }
+  const std::vector<Pair> behind = find_covers(seen);
   rank_.resize(count);
   vertex_seen_.assign(model_->point.size(), 0);
   for (std::size_t f = 0; f < count; ++f) {
@@ -68,7 +76,7 @@ void View::find_ranks() {
   bool changed = true;
   for (int round = 0; round < 24 && changed; ++round) {
     changed = false;
-    for (const auto& pair : behind) {
+    for (const Pair& pair : behind) {
       if (rank_[pair.first] > rank_[pair.second]) continue;
       rank_[pair.first] = rank_[pair.second] + 1;
       changed = true;
@@ -80,8 +88,7 @@ void View::find_ranks() {
 double View::hollowness(std::size_t f, Vec3 normal) const {
   const double facing = std::max(dot(normal, camera_.toward), 0.2);
   const double slope_x = dot(normal, camera_.right) / facing, slope_y = -dot(normal, camera_.up) / facing;
-  const Vec3 middle = 1.0 / 3 * (model_->corner(f, 0) + model_->corner(f, 1) + model_->corner(f, 2));
-  const ScreenPoint p = in_image(camera_.project(middle));
+  const ScreenPoint p = in_image(camera_.project(model_->middle(f)));
   double sum = 0;
   constexpr int turns = 12;
   for (int ring = 1; ring <= 4; ++ring) {

@@ -5,6 +5,8 @@
 // and share one path for each colour.
 #pragma once
 
+#include <utility>
+
 #include "draw/camera.h"
 #include "draw/svg.h"
 
@@ -37,6 +39,8 @@ class View {
 
  private:
   ScreenPoint in_image(const ScreenPoint& p) const;
+  using Pair = std::pair<std::uint32_t, std::uint32_t>;
+  std::vector<Pair> find_covers(std::vector<std::uint8_t>& seen) const;
   void find_ranks();
   double hollowness(std::size_t f, Vec3 normal) const;
 

@@ -1,0 +1,24 @@
+#include "sample/samples.h"
+
+namespace isolod {
+inline namespace v1 {
+
+Vec3 position_of(const Surface& surface, const SurfacePlace& place) {
+  const Halfedges& mesh = surface.mesh;
+  const Vec3 a = surface.position(mesh.origin[halfedge(place.face, 0)]);
+  const Vec3 b = surface.position(mesh.origin[halfedge(place.face, 1)]);
+  const Vec3 c = surface.position(mesh.origin[halfedge(place.face, 2)]);
+  return a + place.weight1 * (b - a) + place.weight2 * (c - a);
+}
+
+Vec3 position_of(const Surface& surface, const Samples& samples, SampleId s) {
+  if (!samples.held[s]) return position_of(surface, samples.place[s]);
+  const LineAnchor& anchor = samples.anchor[s];
+  const Vec3 a = surface.position(surface.mesh.origin[anchor.halfedge]);
+  if (anchor.along == 0) return a;
+  const Vec3 b = surface.position(surface.mesh.target(anchor.halfedge));
+  return anchor.along == 1 ? b : a + anchor.along * (b - a);
+}
+
+}  // namespace v1
+}  // namespace isolod

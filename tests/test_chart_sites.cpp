@@ -173,7 +173,7 @@ TEST_CASE("chart_sites: the charts of made shapes hold every sample, on curved l
     Piece piece(support::made_soup(c.name, 3000), c.angle);
     SampledPiece sampled(piece, c.count, 120);
     const std::size_t inverted = check_all(sampled);
-    CHECK(inverted <= 2 * c.count / 50);  // where chords cut through stars; Lloyd untangles them
+    CHECK(inverted <= 4);  // where chords cut through stars; Lloyd untangles them
   }
 }
 

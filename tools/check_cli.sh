@@ -127,6 +127,8 @@ runs "no progress where no terminal is" 0 "$isolod" remesh torus.off --vertices 
 holds "no progress was written" test ! -s errors.txt
 runs "features" 0 "$isolod" remesh bracket.off --vertices 1500 --features 40 -o result.ply
 runs "curvature" 0 "$isolod" remesh head.off --vertices 1500 --gamma 1 --smooth 5 -o result.stl
+runs "pictures" 0 "$isolod" remesh bracket.off --vertices 1500 --features 40 --pictures drawn/here -o result.ply
+holds "pictures are drawn" test -s drawn/here/1_original.svg -a -s drawn/here/5_result.svg
 awk 'NR > 2 && NR <= 2 + n { print 1 + $1 * $1 } NR == 2 { n = $1 }' torus.off >density.txt
 runs "given density" 0 "$isolod" remesh torus.off --vertices 700 --density density.txt -o result.off
 echo 1 >density.txt

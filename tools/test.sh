@@ -60,6 +60,7 @@ test_build() {
 
 want_build_tools
 want_header doctest/doctest.h doctest-dev
+want_command python3 python3
 install_missing || exit 1
 
 test_build release

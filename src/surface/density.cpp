@@ -2,6 +2,7 @@
 
 #include "base/elementary.h"
 #include "base/status.h"
+#include "surface/flat_flips.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -9,16 +10,6 @@ inline namespace v1 {
 namespace {
 
 constexpr double least_curvature = 1, greatest_curvature = 256;  // in units of 1 / diagonal
-
-double diagonal(const Surface& surface) {
-  Vec3 low = surface.position(VertexId{0}), high = low;
-  for (VertexId v : Ids<VertexId>(surface.mesh.vertex_count())) {
-    const Vec3 p = surface.position(v);
-    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
-    high = {greater(high.x, p.x), greater(high.y, p.y), greater(high.z, p.z)};
-  }
-  return distance(low, high);
-}
 
 /// Calls visit(h) for each halfedge out of the origin of `first`, which starts a wedge, within that wedge.
 template <class Visit>

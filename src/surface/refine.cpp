@@ -1,11 +1,14 @@
 #include "surface/refine.h"
 
 #include "base/status.h"
+#include "surface/flat_flips.h"
 
 namespace isolod {
 inline namespace v1 {
 
 namespace {
+
+constexpr std::uint32_t sweeps_a_round = 64;
 
 /// The mesh of the next round while it is built, in scratch.
 struct Draft {
@@ -114,6 +117,7 @@ Status keep(Span<const T> draft, Span<T>& out, Arena& arena) {
 Status Refine::begin(Surface& surface, double line_rate, double limit, Arena& arena) {
   line_rate_ = line_rate;
   limit_ = limit;
+  tolerance_ = flatness_tolerance(surface);
   mark_ = arena.mark();
   rounds_ = 0;
   done_ = surface.mesh.face_count() == 0;
@@ -121,6 +125,7 @@ Status Refine::begin(Surface& surface, double line_rate, double limit, Arena& ar
 }
 
 Status Refine::step(Surface& surface, Arena& arena) {
+  flip_flat_edges(surface, tolerance_, sweeps_a_round);
   const ScratchScope scope(arena);
   Midpoints middle;
   ISOLOD_TRY(arena.scratch(surface.mesh.halfedge_count(), middle));

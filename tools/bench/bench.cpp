@@ -76,12 +76,12 @@ void find_input(const Arguments& arguments, const TemporaryFile& room, Job& job)
   tool::write_mesh_file(file, tool::write_options(job.path, false), mesh);
 }
 
-/// Seconds of the stages whose name says that they relax; of all stages where none does.
+/// Seconds of the stages that relax; of all stages where there is none.
 double relax_seconds(const isolod::Report& report) {
   double relaxed = 0, all = 0;
   for (std::size_t i = 0; i < report.stage_count; ++i) {
     const std::string name = report.stages[i].name;
-    const bool relaxes = name.find("relax") != std::string::npos || name.find("lloyd") != std::string::npos;
+    const bool relaxes = name.find("relax") != std::string::npos || name == "levels";
     relaxed += relaxes ? report.stages[i].seconds : 0;
     all += report.stages[i].seconds;
   }

@@ -94,7 +94,7 @@ Vec3 choose_up(const Model& model) {
   return lies_on_z || y_is_sideways ? Vec3{0, 0, 1} : best;
 }
 
-/// The surface that this view shows, what is seen from the side counted less.
+/// The surface that this view shows; what is seen from the side or lies in shade counts less.
 double shown_surface(const Model& model, Camera camera) {
   constexpr std::size_t size = 140;
   fit(camera, model, size, size);
@@ -107,9 +107,12 @@ double shown_surface(const Model& model, Camera camera) {
   for (std::size_t pixel = 0; pixel < image.pixel_count(); ++pixel) {
     const std::uint32_t f = image.item(pixel);
     if (f == ItemImage::nothing) continue;
-    const double facing = dot(unit(model.area_vector(f)), camera.toward);
+    Vec3 normal = unit(model.area_vector(f));
+    const double facing = dot(normal, camera.toward);
+    if (facing < 0) normal = -1.0 * normal;
+    const double lit = 0.62 * std::fabs(facing) - 0.48 * dot(normal, camera.right) + 0.62 * dot(normal, camera.up);
     const double weight = facing < 0 ? 0.5 : std::min(1.0, facing / 0.45);  // backs of open surfaces are no good sight
-    shown += weight / std::max(std::fabs(facing), 0.08);
+    shown += weight * (0.8 + 0.2 * std::max(0.0, lit)) / std::max(std::fabs(facing), 0.08);
   }
   return shown / (camera.scale * camera.scale);
 }

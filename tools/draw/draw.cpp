@@ -1,7 +1,9 @@
 #include "draw/draw.h"
 
+#include <algorithm>
 #include <cstring>
 #include <memory>
+#include <new>
 
 #include "draw/chart_pictures.h"
 #include "draw/surface_pictures.h"
@@ -13,6 +15,21 @@ namespace {
 
 using isolod::Remesher;
 using isolod::Status;
+
+constexpr std::size_t most_bytes = std::size_t{1} << 32, most_chart_bytes = std::size_t{1} << 29;
+
+/// A block for an arena. Memory that is not written costs nothing, so it may be large; where it cannot be had, half of
+/// it may do.
+struct Block {
+  explicit Block(std::size_t wished) : count(wished) {
+    bytes.reset(new (std::nothrow) unsigned char[count]);
+    while (bytes == nullptr && count > 0) bytes.reset(new (std::nothrow) unsigned char[count /= 2]);
+  }
+  isolod::Arena arena() const { return isolod::Arena(bytes.get(), count); }
+
+  std::unique_ptr<unsigned char[]> bytes;
+  std::size_t count;
+};
 
 /// Draws while a run goes on: `look` after every slice.
 class Artist {
@@ -65,8 +82,8 @@ class Artist {
   }
 
   Status draw_chart_of(const Remesher::State& state, std::size_t chart) {
-    const std::unique_ptr<unsigned char[]> block(new unsigned char[block_bytes_]);
-    isolod::Arena arena(block.get(), block_bytes_);
+    const Block block(std::min(block_bytes_, most_chart_bytes));
+    isolod::Arena arena = block.arena();
     ChartStory story;
     // A chart that cannot be triangulated is drawn as far as it goes; the run itself will report it.
     (void)tell_story(state.sampled(), state.uv, chart, state.options, arena, story);
@@ -104,11 +121,11 @@ class Artist {
 PictureOutcome draw_run(const std::string& folder, const isolod::MeshView& view, const isolod::Options& options,
                         const PictureSettings& settings) {
   PictureOutcome outcome;
-  const std::size_t enough = isolod::required_memory(view.vertex_count, view.triangle_count, options);
-  const std::size_t bytes = settings.block_bytes != 0 ? settings.block_bytes : enough;
-  const std::unique_ptr<unsigned char[]> block(new unsigned char[bytes]);
-  isolod::Arena arena(block.get(), bytes);
-  Artist artist(folder, settings, bytes, outcome);
+  const std::size_t required = isolod::required_memory(view.vertex_count, view.triangle_count, options);
+  const std::size_t plenty = std::min(4 * required, most_bytes);
+  const Block block(settings.block_bytes != 0 ? settings.block_bytes : plenty);
+  isolod::Arena arena = block.arena();
+  Artist artist(folder, settings, block.count, outcome);
   Remesher remesher;
   outcome.status = remesher.begin(view, options, {}, arena);
   while (outcome.status.is_ok() && !remesher.done()) {

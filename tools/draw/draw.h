@@ -19,7 +19,7 @@
 namespace draw {
 
 struct PictureSettings {
-  std::size_t block_bytes = 0;  ///< of working memory; 0: what `required_memory` says
+  std::size_t block_bytes = 0;  ///< of working memory; 0: plenty, as far as it can be had
   bool direction_given = false;
   double toward[3] = {0, 0, 1};  ///< from the model to the eye
   double up[3] = {0, 1, 0};

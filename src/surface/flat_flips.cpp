@@ -1,0 +1,94 @@
+#include "surface/flat_flips.h"
+
+#include "mesh/triangulation.h"
+
+namespace isolod {
+inline namespace v1 {
+
+double diagonal(const Surface& surface) {
+  Vec3 low = surface.position(VertexId{0}), high = low;
+  for (VertexId v : Ids<VertexId>(surface.mesh.vertex_count())) {
+    const Vec3 p = surface.position(v);
+    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
+    high = {greater(high.x, p.x), greater(high.y, p.y), greater(high.z, p.z)};
+  }
+  return distance(low, high);
+}
+
+double flatness_tolerance(const Surface& surface) { return 1e-7 * diagonal(surface); }
+
+namespace {
+
+/// The four corners about an edge a b, c on its left and d on its right.
+struct Quad {
+  Vec3 a, b, c, d;
+};
+
+bool is_flat(const Quad& q, double tolerance) {
+  const Vec3 normal = cross(q.b - q.a, q.c - q.a);
+  const Vec3 other = cross(q.d - q.a, q.b - q.a);
+  return absolute(dot(q.d - q.a, normal)) <= tolerance * length(normal) &&
+         absolute(dot(q.c - q.a, other)) <= tolerance * length(other) && dot(normal, other) > 0;
+}
+
+/// Cosine and sine of an angle, times one positive number.
+struct Angle {
+  double cosine, sine;
+};
+Angle angle_at(Vec3 p, Vec3 a, Vec3 b) { return {dot(a - p, b - p), length(cross(a - p, b - p))}; }
+
+/// Whether the angles at c and d sum to more than two right angles, by more than rounding.
+bool is_not_delaunay(const Quad& q) {
+  const Angle c = angle_at(q.c, q.a, q.b), d = angle_at(q.d, q.a, q.b);
+  const double scale = (absolute(c.cosine) + c.sine) * (absolute(d.cosine) + d.sine);
+  return c.sine * d.cosine + c.cosine * d.sine < -1e-12 * scale;
+}
+
+/// Whether both triangles of the other diagonal have area on the same side; the smaller height may not shrink below rounding.
+bool is_convex(const Quad& q, double tolerance) {
+  const Vec3 normal = cross(q.b - q.a, q.c - q.a);
+  const Vec3 first = cross(q.b - q.d, q.c - q.d), second = cross(q.a - q.c, q.d - q.c);
+  const double longest = greater(length(q.c - q.d), greater(length(q.a - q.b), 0));
+  return dot(first, normal) > 0 && dot(second, normal) > 0 && length(first) > 16 * tolerance * longest &&
+         length(second) > 16 * tolerance * longest;
+}
+
+Quad quad_of(const Surface& surface, HalfedgeId h) {
+  const Halfedges& mesh = surface.mesh;
+  return {surface.position(mesh.origin[h]), surface.position(mesh.target(h)), surface.position(mesh.apex(h)),
+          surface.position(mesh.apex(mesh.twin[h]))};
+}
+
+void flip_with_densities(Surface& surface, Triangulation& t, HalfedgeId h) {
+  if (surface.wedge_density.empty()) return flip(t, h);
+  Span<float> density = surface.wedge_density;
+  const HalfedgeId g = t.mesh.twin[h];
+  const float at_b = density[next(h)], at_c = density[prev(h)], at_a = density[next(g)], at_d = density[prev(g)];
+  flip(t, h);  // h runs from d to b, prev(h) from c; g from c to a, prev(g) from d
+  density[h] = at_d;
+  density[next(h)] = at_b;
+  density[prev(h)] = at_c;
+  density[g] = at_c;
+  density[next(g)] = at_a;
+  density[prev(g)] = at_d;
+}
+
+}  // namespace
+
+void flip_flat_edges(Surface& surface, double tolerance, std::uint32_t most_sweeps) {
+  Triangulation t{surface.mesh, surface.line};
+  for (std::uint32_t sweep = 0; sweep < most_sweeps; ++sweep) {
+    std::uint32_t flips = 0;
+    for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
+      if (!(h < surface.mesh.twin[h]) || surface.mesh.is_boundary(h) || surface.line[h] != line_none) continue;
+      const Quad q = quad_of(surface, h);
+      if (!is_not_delaunay(q) || !is_flat(q, tolerance) || !is_convex(q, tolerance) || !can_flip(t, h)) continue;
+      flip_with_densities(surface, t, h);
+      ++flips;
+    }
+    if (flips == 0) return;
+  }
+}
+
+}  // namespace v1
+}  // namespace isolod

@@ -20,4 +20,4 @@ case " $* " in
     set -- --isolod "$isolod" "$@"
     ;;
 esac
-exec python3 tools/check_models.py "$@"
+exec python3 -B tools/check_models.py "$@"

@@ -1,6 +1,4 @@
 // The narrated order of the stages: from the caller's triangles to the first mesh.
-#include <cstdlib>
-#include <cstdio>
 #include "mesh/validate.h"
 #include "base/hash.h"
 #include "pipeline/state.h"
@@ -15,7 +13,8 @@ namespace {
 
 using State = Remesher::State;
 
-const std::uint32_t least_first_count = getenv("FIRST") ? atoi(getenv("FIRST")) : 2000;
+constexpr std::uint32_t least_first_count = 2000;
+constexpr std::uint32_t atlas_stage = 6;  // its place in `stage_entries`
 constexpr double refine_limit = 1.25;  // wished edge lengths
 
 std::uint64_t face_units(const State& s) { return s.surface.mesh.face_count(); }
@@ -60,16 +59,20 @@ std::uint64_t least_budget(const State& s, const DensityIntegrals& integrals) {
   return integrals.corner_count + 3 * std::uint64_t{s.report.boundary_loops} + 4 * std::uint64_t{s.report.components};
 }
 
+/// Plans at most so many splits, and what the first mesh is made of.
+void plan_run(State& s, const DensityIntegrals& integrals, std::uint32_t most_splits) {
+  s.plan = plan_levels(s.options.vertex_count, integrals.euler_characteristic, most_splits, least_first_count);
+  s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
+}
+
 Status step_calibrate(State& s, bool& done, std::uint64_t& units) {
   const DensityIntegrals integrals = integrate_density(s.surface);
   s.report.corners = integrals.corner_count;
   s.rates = solve_rates(integrals, s.options.vertex_count, s.options.calibration);
   units = face_units(s);
   done = true;
-  bool has_lines = false;
-  for (std::uint8_t l : s.surface.line) has_lines = has_lines || l != line_none;
-  s.plan = plan_levels(s.options.vertex_count, integrals.euler_characteristic, has_lines, least_first_count);
-  s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
+  for (std::uint8_t l : s.surface.line) s.has_lines = s.has_lines || l != line_none;
+  plan_run(s, integrals, s.has_lines ? 0 : LevelPlan::most_splits);
   if (s.rates.line > 0 && s.first_rates.line > 0) return {};
   return fail(Status::budget_too_small, Element::count, least_budget(s, integrals));
 }
@@ -84,6 +87,7 @@ Status step_refine(State& s, bool& done, std::uint64_t& units) {
 
 Status step_atlas(State& s, bool& done, std::uint64_t& units) {
   if (!s.stage_begun) {
+    s.before_atlas = s.arena->mark();
     AtlasOptions options;
     options.line_rate = s.first_rates.line;
     options.surface_rate = s.first_rates.surface;
@@ -185,18 +189,28 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   return gather_samples(s.sampled(), s.samples, *s.arena);
 }
 
+/// Too coarse a first mesh does not resolve the shape: its stars fit no map. All is done again from a finer one.
+void restart_finer(State& s) {
+  s.arena->rewind_results(s.before_atlas);
+  s.arena->rewind_scratch(s.before_atlas);
+  for (std::uint8_t& l : s.surface.line) l = l & line_feature;
+  plan_run(s, integrate_density(s.surface), s.plan.splits - 1);
+  s.next_stage = atlas_stage;
+}
+
 Status step_levels(State& s, bool& done, std::uint64_t& units) {
   if (!s.stage_begun) {
     LevelOptions options;
     options.line_rate = s.rates.line;
     options.weight = s.options.weight;
-    if (getenv("COARSE")) options.coarse_iterations = atoi(getenv("COARSE"));
-    if (getenv("FINE")) options.fine_iterations = atoi(getenv("FINE"));
     ISOLOD_TRY(s.levels.begin(s.surface, s.plan, options));
   }
   ISOLOD_TRY(s.levels.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
   units = 4000;
   done = s.levels.done();
+  if (!s.levels.is_unresolved()) return {};
+  restart_finer(s);
+  done = true;
   return {};
 }
 
@@ -220,7 +234,6 @@ Status step_validate(State& s, bool& done, std::uint64_t& units) {
   Finding finding;
   ISOLOD_TRY(find_defect(s.triangles, s.positions, s.options.vertex_count, finding, *s.arena));
   if (finding.defect == Defect::none) return {};
-  printf("defect %s %u\n", name(finding.defect), finding.element);
   return fail(Status::invalid_result, Element::vertex, finding.element);
 }
 

@@ -1,19 +1,20 @@
 #include "pipeline/levels.h"
 
-#include <cstdio>
-#include <cstdlib>
 #include "base/status.h"
 
 namespace isolod {
 inline namespace v1 {
 
-LevelPlan plan_levels(std::uint32_t vertex_count, std::int64_t euler_characteristic, bool has_lines,
+namespace {
+constexpr double most_homeless = 0.02;  // of the samples of a first level that is to be split
+constexpr std::uint32_t trial_iterations = 15;
+}  // namespace
+
+LevelPlan plan_levels(std::uint32_t vertex_count, std::int64_t euler_characteristic, std::uint32_t most_splits,
                       std::uint32_t least_first) {
   LevelPlan plan;
-  plan.first_count = vertex_count;
-  if (has_lines) return plan;
   std::int64_t factor = 1, first = vertex_count;
-  for (std::uint32_t splits = 1; splits <= LevelPlan::most_splits; ++splits) {
+  for (std::uint32_t splits = 1; splits <= most_splits; ++splits) {
     const std::int64_t wider = 4 * factor;
     const std::int64_t coarser = (std::int64_t{vertex_count} + (wider - 1) * euler_characteristic) / wider;
     if (coarser < std::int64_t{least_first} || coarser - euler_characteristic <= 0) break;
@@ -62,7 +63,11 @@ Status Levels::step(const Surface& surface, Triangulation& mesh, Samples& sample
       return relaxation_.begin(surface, frames_, mesh, samples, {options_.weight, 1.8}, arena);
     case Phase::relax:
       last_report_ = relaxation_.iterate();
-      if (getenv("RELAX_DEBUG")) printf("level %u: moved %u homeless %u shortened %u flips %u\n", level_, last_report_.moved, last_report_.homeless, last_report_.shortened, last_report_.flips);
+      if (level_ == 0 && !finest && iteration_ == trial_iterations &&
+          last_report_.homeless > most_homeless * static_cast<double>(samples.count())) {
+        phase_ = Phase::unresolved;
+        return {};
+      }
       if (++iteration_ < (finest ? options_.fine_iterations : options_.coarse_iterations)) return {};
       arena.rewind_scratch(scratch_);
       phase_ = finest ? Phase::done : Phase::split;
@@ -72,7 +77,8 @@ Status Levels::step(const Surface& surface, Triangulation& mesh, Samples& sample
       ++level_;
       phase_ = Phase::begin_frames;
       return {};
-    case Phase::done: return {};
+    case Phase::done:
+    case Phase::unresolved: return {};
   }
   return {};
 }

@@ -19,9 +19,9 @@ struct LevelPlan {
   std::uint32_t inserted[most_splits + 1] = {};
 };
 
-/// As many levels as leave the first one at least `least_first` samples; none (all V at once) where lines stand in the way. On a
-/// closed surface a level of V samples gives 4 V - 3 chi.
-LevelPlan plan_levels(std::uint32_t vertex_count, std::int64_t euler_characteristic, bool has_lines,
+/// As many splits, up to `most_splits`, as leave the first level at least `least_first` samples. On a closed surface a level of V
+/// samples gives 4 V - 3 chi.
+LevelPlan plan_levels(std::uint32_t vertex_count, std::int64_t euler_characteristic, std::uint32_t most_splits,
                       std::uint32_t least_first);
 
 struct LevelOptions {
@@ -38,11 +38,12 @@ class Levels {
   /// Tries one frame, or does one iteration, or one split.
   Status step(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   bool done() const { return phase_ == Phase::done; }
-  std::uint32_t level() const { return level_; }
-  const RelaxReport& last_report() const { return last_report_; }
+  /// Whether the first level was given up because too many of its samples have stars that no map holds, and there is a finer one
+  /// to start from.
+  bool is_unresolved() const { return phase_ == Phase::unresolved; }
 
  private:
-  enum class Phase : std::uint8_t { begin_frames, make_frames, insert, relax, split, done };
+  enum class Phase : std::uint8_t { begin_frames, make_frames, insert, relax, split, done, unresolved };
 
   LevelPlan plan_;
   LevelOptions options_;

@@ -26,11 +26,16 @@ double share_done(std::uint32_t stage) {
   return smaller(1, share);
 }
 
+/// A run that starts again from a finer first mesh reports each stage once, with the time of all attempts.
 void close_stage(Remesher::State& s) {
-  StageReport& stage = s.report.stages[s.report.stage_count++];
+  std::size_t at = 0;
+  while (at < s.report.stage_count && s.report.stages[at].name != stage_entries[s.stage].name) ++at;
+  StageReport& stage = s.report.stages[at];
+  const double before = at < s.report.stage_count ? stage.seconds : 0;
+  if (at == s.report.stage_count) ++s.report.stage_count;
   stage.name = stage_entries[s.stage].name;
   stage.hash = stage_entries[s.stage].hash(s);
-  stage.seconds = now(s.hooks) - s.stage_start;
+  stage.seconds = before + now(s.hooks) - s.stage_start;
   stage.arena_bytes = s.arena->high_water();
   s.report.arena_bytes = stage.arena_bytes > s.report.arena_bytes ? stage.arena_bytes : s.report.arena_bytes;
   s.arena->reset_high_water();
@@ -38,14 +43,17 @@ void close_stage(Remesher::State& s) {
 
 /// One piece of the present stage.
 Status do_piece(Remesher::State& s, std::uint64_t& units) {
-  if (!s.stage_begun) s.stage_start = now(s.hooks);
+  if (!s.stage_begun) {
+    s.stage_start = now(s.hooks);
+    s.next_stage = s.stage + 1;
+  }
   bool done = false;
   ISOLOD_TRY(stage_entries[s.stage].step(s, done, units));
   s.stage_begun = !done;
   if (!done) return {};
   close_stage(s);
   s.piece = 0;
-  ++s.stage;
+  s.stage = s.next_stage;
   return {};
 }
 

@@ -23,6 +23,7 @@ struct Remesher::State {
   Report report;
 
   std::uint32_t stage = 0;
+  std::uint32_t next_stage = 0;  ///< what follows when the stage is done
   bool stage_begun = false;
   double stage_start = 0;
   std::uint32_t piece = 0;  ///< of the stage: the next chart, the next iteration
@@ -42,7 +43,9 @@ struct Remesher::State {
   SampleNumbers numbers;
   Stitch stitch;
   Samples samples;
+  bool has_lines = false;
   LevelPlan plan;
+  ArenaMark before_atlas;
   Rates first_rates;  ///< of the first mesh
   Levels levels;
   Span<double> positions;

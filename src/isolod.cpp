@@ -10,12 +10,14 @@
 #include "mesh/repair.cpp"
 #include "mesh/repair_edges.cpp"
 #include "mesh/repair_flat.cpp"
+#include "mesh/repair_pair.cpp"
 #include "mesh/repair_sheets.cpp"
 #include "mesh/triangulation.cpp"
 #include "mesh/validate.cpp"
 
 #include "surface/density.cpp"
 #include "surface/features.cpp"
+#include "surface/flat_flips.cpp"
 #include "surface/refine.cpp"
 
 #include "sample/backbones.cpp"
@@ -23,12 +25,14 @@
 #include "sample/diffuse.cpp"
 #include "sample/line_samples.cpp"
 #include "sample/place.cpp"
+#include "sample/samples.cpp"
 
 #include "atlas/chart.cpp"
 #include "atlas/partition.cpp"
 
 #include "plane/chart_sites.cpp"
 #include "plane/delaunay.cpp"
+#include "plane/exact_moment.cpp"
 #include "plane/flatten.cpp"
 #include "plane/lloyd.cpp"
 #include "plane/locate.cpp"
@@ -38,6 +42,13 @@
 #include "result/lift.cpp"
 #include "result/stitch.cpp"
 
+#include "relax/descent.cpp"
+#include "relax/frame_ground.cpp"
+#include "relax/frames.cpp"
+#include "relax/relaxation.cpp"
+#include "relax/split_edges.cpp"
+
 #include "pipeline/first_mesh.cpp"
+#include "pipeline/levels.cpp"
 #include "pipeline/make_atlas.cpp"
 #include "pipeline/remesher.cpp"

@@ -63,7 +63,8 @@ TEST_CASE("chart: local connectivity is the surface's, cut along the labels") {
     const Piece piece(support::made_soup(name, 1500));
     std::vector<std::uint32_t> label;
     for (const Soup::Triangle& t : piece.soup.triangles) {
-      label.push_back(label_by_place(piece.soup.positions[t[0]], piece.soup.positions[t[1]], piece.soup.positions[t[2]]));
+      label.push_back(
+          label_by_place(piece.soup.positions[t[0]], piece.soup.positions[t[1]], piece.soup.positions[t[2]]));
     }
     Labels labels(label);
     const Atlas atlas = labels.atlas();

@@ -102,16 +102,7 @@ std::size_t check_all(SampledPiece& s) {
   return inverted;
 }
 
-support::Edges cross_of(const support::Soup& soup) {
-  support::Edges edges;
-  for (const auto& t : soup.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 a = soup.positions[t[k]], b = soup.positions[t[(k + 1) % 3]];
-      if ((a.x == 0.5 && b.x == 0.5) || (a.y == 0.5 && b.y == 0.5)) edges.push_back({t[k], t[(k + 1) % 3]});
-    }
-  }
-  return edges;
-}
+bool on_cross(Vec3 a, Vec3 b) { return (a.x == 0.5 && b.x == 0.5) || (a.y == 0.5 && b.y == 0.5); }
 
 }  // namespace
 
@@ -126,7 +117,7 @@ TEST_CASE("chart_sites: a flat square has all its samples, the lines between the
 TEST_CASE("chart_sites: lines inside a chart stay as chains of fixed edges") {
   const support::Soup square = support::square_grid(10);
   for (const std::uint32_t count : {40u, 100u, 2000u}) {
-    Piece piece(square, 0, cross_of(square));
+    Piece piece(square, 0, support::edges_where(square, on_cross));
     SampledPiece sampled(piece, count);
     REQUIRE(sampled.backbones.count() > 4);
     CHECK(check_all(sampled) == 0);
@@ -167,8 +158,9 @@ TEST_CASE("chart_sites: the charts of made shapes hold every sample, on curved l
     std::uint32_t count;
     double angle;
   };
-  for (const Case& c : {Case{"sphere", 400, 0}, Case{"sphere", 5000, 0}, Case{"torus", 1500, 0}, Case{"lattice", 3000, 0},
-                        Case{"bracket", 1500, 40}, Case{"bracket", 6000, 40}, Case{"cube", 700, 40}}) {
+  for (const Case& c :
+       {Case{"sphere", 400, 0}, Case{"sphere", 5000, 0}, Case{"torus", 1500, 0}, Case{"lattice", 3000, 0},
+        Case{"bracket", 1500, 40}, Case{"bracket", 6000, 40}, Case{"cube", 700, 40}}) {
     INFO(c.name << " with " << c.count);
     Piece piece(support::made_soup(c.name, 3000), c.angle);
     SampledPiece sampled(piece, c.count, 120);

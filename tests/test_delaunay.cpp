@@ -68,7 +68,8 @@ bool sees(const PlaneTriangulation& plane, Vec2 p, VertexId v) {
   return true;
 }
 
-/// Pairs of a face and a vertex inside its circle that the face's middle sees. Faces that are too thin to have one are passed over.
+/// Pairs of a face and a vertex inside its circle that the face's middle sees. Faces that are too thin to have one are
+/// passed over.
 std::uint32_t seen_inside_circles(const PlaneTriangulation& plane) {
   const Halfedges& mesh = plane.t.mesh;
   std::uint32_t count = 0;

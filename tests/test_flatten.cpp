@@ -239,9 +239,11 @@ TEST_CASE("flatten: a single triangle always passes, thin ones too") {
       Random random(seed);
       Soup soup;
       const Vec3 corner{random.unit(), random.unit(), random.unit()};
-      const Vec3 along{random.unit(), random.unit(), random.unit()}, other{random.unit(), -random.unit(), random.unit()};
+      const Vec3 along{random.unit(), random.unit(), random.unit()},
+          other{random.unit(), -random.unit(), random.unit()};
       const Vec3 up = cross(along, other);
-      for (const Vec3 p : {corner, corner + along, corner + random.unit() * along + height * up}) soup.vertex(p.x, p.y, p.z);
+      for (const Vec3 p : {corner, corner + along, corner + random.unit() * along + height * up})
+        soup.vertex(p.x, p.y, p.z);
       soup.face(0, 1, 2);
       if (!(soup.area() > 0)) continue;
       INFO("height " << height << ", seed " << seed);
@@ -258,7 +260,8 @@ TEST_CASE("flatten: any arena does or fails cleanly") {
   const Atlas atlas = labels.atlas();
   Chart chart;
   support::Block chart_block(1 << 16);
-  REQUIRE(build_chart(piece.surface, atlas.chart_faces(0), atlas.chart_of_face, atlas.place, chart, chart_block.arena).is_ok());
+  REQUIRE(build_chart(piece.surface, atlas.chart_faces(0), atlas.chart_of_face, atlas.place, chart, chart_block.arena)
+              .is_ok());
   std::vector<Vec2f> uv(chart.mesh.vertex_count());
   std::vector<unsigned char> memory(600 * uv.size());
   bool enough = false;

@@ -158,7 +158,8 @@ TEST_CASE("lloyd: the way to go gets shorter, and sites on lines never move") {
   CHECK(still > 20);
 }
 
-TEST_CASE("lloyd: with the equal weight the realised density follows the wished one, and the printed weight lags behind") {
+TEST_CASE(
+    "lloyd: with the equal weight the realised density follows the wished one, and the printed weight lags behind") {
   const auto density = [](double x) { return 1 + 7 * x; };
   double slope[2];
   for (const LloydWeight weight : {LloydWeight::equal, LloydWeight::paper}) {
@@ -176,7 +177,8 @@ TEST_CASE("lloyd: with the equal weight the realised density follows the wished 
 }
 
 TEST_CASE("lloyd: a stretched map is made up for: sites are even on the surface") {
-  // A slope that rises ever steeper: the area in the plane, d x, is sqrt(1 + slope^2) d x on the surface. The map is its shadow.
+  // A slope that rises ever steeper: the area in the plane, d x, is sqrt(1 + slope^2) d x on the surface. The map is
+  // its shadow.
   Piece piece(support::bent(support::square_grid(20), [](Vec3 p) { return Vec3{p.x, p.y, 2 * p.x * p.x}; }));
   SampledPiece sampled(piece, 800);
   Relaxed relaxed(sampled, with(LloydWeight::equal));
@@ -189,13 +191,8 @@ TEST_CASE("lloyd: a stretched map is made up for: sites are even on the surface"
 
 TEST_CASE("lloyd: sites stay on their side of a line, and in the domain when it is not convex") {
   const auto column = [](std::uint32_t i, std::uint32_t j) { return i < 6 || j < 6; };  // an L
-  support::Soup soup = support::grid_where(12, column);
-  support::Edges tagged;
-  for (const auto& t : soup.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      if (soup.positions[t[k]].x == 0.25 && soup.positions[t[(k + 1) % 3]].x == 0.25) tagged.push_back({t[k], t[(k + 1) % 3]});
-    }
-  }
+  const support::Soup soup = support::grid_where(12, column);
+  const support::Edges tagged = support::edges_where(soup, [](Vec3 a, Vec3 b) { return a.x == 0.25 && b.x == 0.25; });
   REQUIRE(tagged.size() > 10);
   Piece piece(soup, 0, tagged);
   SampledPiece sampled(piece, 400);
@@ -261,8 +258,8 @@ TEST_CASE("lloyd: any arena does or fails cleanly") {
     {
       const ScratchScope scope(arena);
       Lloyd lloyd;
-      const Status status =
-          lloyd.begin(piece.surface, relaxed.flat, relaxed.sites, relaxed.first_movable, with(LloydWeight::equal), arena);
+      const Status status = lloyd.begin(piece.surface, relaxed.flat, relaxed.sites, relaxed.first_movable,
+                                        with(LloydWeight::equal), arena);
       CHECK((status.is_ok() || status == Status::out_of_memory));
       CHECK((status.is_ok() || !enough));
       if (status.is_ok()) lloyd.iterate();

@@ -72,9 +72,7 @@ struct FlatGround {
       : piece(soup, feature_angle, tagged) {
     for (const Vec3& p : soup.positions) points.push_back({p.x, p.y});
   }
-  WalkGround ground() const {
-    return {&piece.surface.mesh, {points.data(), points.size()}, piece.surface.line};
-  }
+  WalkGround ground() const { return {&piece.surface.mesh, {points.data(), points.size()}, piece.surface.line}; }
   support::Piece piece;
   Points points;
 };
@@ -85,8 +83,8 @@ TEST_CASE("locate: a walk ends where an exhaustive scan finds the point, whereve
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     for (const double scale : {1.0, 1e-9, 1e9}) {
       Random random(seed);
-      PlaneMesh mesh(support::moved(seed % 2 == 0 ? support::random_points(random, 50) : support::lattice_points(random, 7),
-                                    scale, seed == 2));
+      PlaneMesh mesh(support::moved(
+          seed % 2 == 0 ? support::random_points(random, 50) : support::lattice_points(random, 7), scale, seed == 2));
       mesh.shake(random, 200);  // not Delaunay: a walk could run in circles
       if (seed == 3) {
         for (std::uint32_t v = 10; v < 20; ++v) take_out(mesh.plane, {v}, mesh.stack);  // with dead faces
@@ -120,22 +118,9 @@ TEST_CASE("locate: a walk that is longer than allowed is replaced by a scan") {
 
 TEST_CASE("locate: barriers are not crossed") {
   // The middle line of the square is tagged, all the way from rim to rim.
-  constexpr std::uint32_t n = 8;
-  support::Edges tagged;
-  for (std::uint32_t j = 0; j < n; ++j) tagged.push_back({j * (n + 1) + n / 2, (j + 1) * (n + 1) + n / 2});
-  const support::Soup soup = support::bent(support::square_grid(n), [](Vec3 p) { return p; });
-  // Vertices are numbered as faces meet them, so the tags are found by position.
-  for (auto& edge : tagged) {
-    for (std::uint32_t* v : {&edge.first, &edge.second}) {
-      const double x = double(*v % (n + 1)) / n, y = double(*v / (n + 1)) / n;
-      for (std::uint32_t i = 0; i < soup.positions.size(); ++i) {
-        if (soup.positions[i].x == x && soup.positions[i].y == y) {
-          *v = i;
-          break;
-        }
-      }
-    }
-  }
+  const support::Soup soup = support::square_grid(8);
+  const support::Edges tagged = support::edges_where(soup, [](Vec3 a, Vec3 b) { return a.x == 0.5 && b.x == 0.5; });
+  REQUIRE(tagged.size() == 16);  // from both sides
   const FlatGround flat(soup, 0, tagged);
   Random random(1);
   for (int i = 0; i < 500; ++i) {
@@ -177,7 +162,8 @@ TEST_CASE("locate: weights give the point back inside, and the nearest place of 
       CHECK(distance(at, p) < 1e-13);
       continue;
     }
-    const Vec2 a = ground.point[ground.mesh->origin[found.blocked]], b = ground.point[ground.mesh->target(found.blocked)];
+    const Vec2 a = ground.point[ground.mesh->origin[found.blocked]],
+               b = ground.point[ground.mesh->target(found.blocked)];
     double nearest = 1e300;
     for (int i = 0; i <= 1000; ++i) nearest = smaller(nearest, distance(p, a + i / 1000.0 * (b - a)));
     CHECK(distance(at, p) <= nearest + 1e-13);

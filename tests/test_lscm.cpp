@@ -20,7 +20,8 @@ struct Metric {
     for (VertexId v : Ids<VertexId>(surface.mesh.vertex_count())) position.push_back(surface.position(v));
     for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
       const Vec3 apex = surface.position(surface.mesh.apex(h));
-      const Vec3 a = surface.position(surface.mesh.origin[h]) - apex, b = surface.position(surface.mesh.target(h)) - apex;
+      const Vec3 a = surface.position(surface.mesh.origin[h]) - apex,
+                 b = surface.position(surface.mesh.target(h)) - apex;
       const double angle = std::acos(dot(a, b) / length(a) / length(b));
       cotangent.push_back(1 / std::tan(angle));
     }
@@ -98,7 +99,8 @@ TEST_CASE("lscm: the quadratic form is the conformal energy of singular values, 
     REQUIRE(system.begin(piece.surface.mesh, metric.view().cotangent, block.arena).is_ok());
     Random random(2);
     for (int i = 0; i < 5; ++i) {
-      const std::vector<Vec2> x = random_map(random, soup.positions.size()), y = random_map(random, soup.positions.size());
+      const std::vector<Vec2> x = random_map(random, soup.positions.size()),
+                              y = random_map(random, soup.positions.size());
       CHECK(0.5 * inner(x, image_of(system, x)) == doctest::Approx(conformal_energy(piece.surface, x)).epsilon(1e-9));
       CHECK(inner(y, image_of(system, x)) == doctest::Approx(inner(x, image_of(system, y))).epsilon(1e-9));
     }

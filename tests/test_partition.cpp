@@ -165,7 +165,11 @@ TEST_CASE("partition: the same regions come out twice, and at another scale") {
 
 TEST_CASE("partition: borders lie on a line where there is one, and on it alone where lines are barriers") {
   // A roof: two slopes that meet in a ridge.
-  Piece piece(support::bent(support::square_grid(16), [](Vec3 p) { return Vec3{p.x, p.y, 0.5 - absolute(p.x - 0.5)}; }), 40);
+  Piece piece(support::bent(support::square_grid(16),
+                            [](Vec3 p) {
+                              return Vec3{p.x, p.y, 0.5 - absolute(p.x - 0.5)};
+                            }),
+              40);
   PartitionOptions options = with_samples(piece, 60, 30);
   for (const Lines lines : {Lines::dear, Lines::barriers}) {
     options.lines = lines;
@@ -225,7 +229,8 @@ TEST_CASE("partition: any arena does or fails cleanly") {
   for (std::size_t bytes = 0; bytes < memory.size(); bytes += 64) {
     Arena arena(memory.data(), bytes);
     std::uint32_t count = 0;
-    const Status status = partition(piece.surface, with_samples(piece, 100, 20), {label.data(), label.size()}, count, arena);
+    const Status status =
+        partition(piece.surface, with_samples(piece, 100, 20), {label.data(), label.size()}, count, arena);
     CHECK(arena.used() == 0);
     CHECK((status.is_ok() || status == Status::out_of_memory));
     CHECK((status.is_ok() || !enough));

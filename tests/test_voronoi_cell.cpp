@@ -84,7 +84,8 @@ struct Diagram {
 };
 
 /// Mass and first moment about the site of what each site owns, by pixels; the weight is a function of the place.
-std::vector<Moment> by_pixels(const PlaneTriangulation& plane, std::uint32_t n, const std::function<double(Vec2)>& weight) {
+std::vector<Moment> by_pixels(const PlaneTriangulation& plane, std::uint32_t n,
+                              const std::function<double(Vec2)>& weight) {
   std::vector<Moment> moments(plane.t.mesh.vertex_count());
   const std::vector<Segment> walls = fixed_segments(plane);
   const Vec2 low = plane.point[0], high = plane.point[2];
@@ -190,8 +191,8 @@ TEST_CASE("voronoi_cell: moments are those of a quadrature that is exact for pro
     const double apex_weight = 0.5 + random.unit();
     Moment wanted;
     for (std::uint32_t i = 0; i < polygon.count; ++i) {
-      const WeightedPolygon::Corner corner[3] = {{apex, apex_weight}, polygon.corner[i],
-                                                 polygon.corner[(i + 1) % polygon.count]};
+      const WeightedPolygon::Corner corner[3] = {
+          {apex, apex_weight}, polygon.corner[i], polygon.corner[(i + 1) % polygon.count]};
       const double area = 0.5 * side(apex, corner[1].point, corner[2].point);
       for (int k = 0; k < 3; ++k) {  // the three midpoints of the sides
         const double w = 0.5 * (corner[k].weight + corner[(k + 1) % 3].weight);
@@ -211,7 +212,8 @@ TEST_CASE("voronoi_cell: a weight that rises along x moves the centroid as much 
   Random random(9);
   Points points;  // jittered lattice: what Lloyd makes of its sites
   for (int i = 0; i < 7; ++i) {
-    for (int j = 0; j < 7; ++j) points.push_back({(i + 0.5 * (j % 2) + 0.3 * random.unit()) / 7, (j + 0.3 * random.unit()) / 7});
+    for (int j = 0; j < 7; ++j)
+      points.push_back({(i + 0.5 * (j % 2) + 0.3 * random.unit()) / 7, (j + 0.3 * random.unit()) / 7});
   }
   Diagram diagram(points, 0, random);
   const auto weight = [](Vec2 p) { return 2 + 1.5 * p.x; };

@@ -143,7 +143,7 @@ Status step_diffuse(State& s, bool& done, std::uint64_t& units) {
   Span<std::uint32_t> face_count;
   ISOLOD_TRY(s.arena->scratch(s.surface.mesh.face_count(), face_count));
   ISOLOD_TRY(diffuse(s.surface, s.backbones, s.lines, s.first_rates.surface, surface_samples, face_count, *s.arena));
-  place_samples(s.surface, s.atlas, face_count, s.chart_start, s.places);
+  place_samples(s.surface, {s.atlas.faces, s.atlas.start}, face_count, s.chart_start, s.places);
   count_samples(s);
   units = face_units(s) + surface_samples;
   done = true;
@@ -171,7 +171,7 @@ Status step_charts(State& s, bool& done, std::uint64_t& units) {
   ISOLOD_TRY(build_flat_chart(s.surface, s.atlas, s.uv, chart, flat, *s.arena));
   ISOLOD_TRY(triangulate_sites(s.sampled(), flat, chart, sites, *s.arena));
   const std::uint32_t first_movable = s.numbers.node_count + s.numbers.line_count;
-  ISOLOD_TRY(lloyd.begin(s.surface, flat, sites, first_movable, {s.options.weight, 1}, *s.arena));
+  ISOLOD_TRY(lloyd.begin(s.surface, flat, sites, first_movable, {s.options.weight, s.options.centroids, 1}, *s.arena));
   lloyd.untangle();
   for (std::uint32_t i = 0; i < s.options.lloyd_iterations; ++i) lloyd.iterate();
   for (VertexId v : Ids<VertexId>(sites.sample.count)) {

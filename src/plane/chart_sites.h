@@ -6,6 +6,7 @@
 // with the chart's topology even where a chord leaves the domain.
 #pragma once
 
+#include "atlas/chart.h"
 #include "plane/delaunay.h"
 #include "plane/flatten.h"
 #include "sample/line_samples.h"

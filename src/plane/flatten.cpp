@@ -8,7 +8,6 @@ inline namespace v1 {
 namespace {
 
 constexpr std::uint32_t iterations_between_looks = 10;
-constexpr double good_mean_ratio = 1.03, good_share_over = 0.01;
 constexpr double least_iterations = 40;
 constexpr double residual_reduction = 1e-10;
 
@@ -165,7 +164,7 @@ Status improve(const Chart& chart, const ChartMetric& metric, const FlattenOptio
   for (std::uint32_t done = 0;; done += iterations_between_looks) {
     MapQuality quality = measure_map(mesh, metric, x);
     const bool last = done >= most || solver.converged(residual_reduction);
-    const bool good = quality.mean_ratio <= good_mean_ratio && quality.share_over_12 <= good_share_over;
+    const bool good = quality.mean_ratio <= options.good_mean_ratio && quality.share_over_12 <= options.good_share_over;
     if (quality.flipped == 0 && (good || last)) {
       round_map(metric, mesh, x, uv);
       measure_stretch(mesh, metric, x, quality);

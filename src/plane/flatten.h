@@ -20,7 +20,9 @@ inline Vec2 widen(Vec2f p) { return {static_cast<double>(p.x), static_cast<doubl
 
 struct FlattenOptions {
   double greatest_stretch_range = 40;
-  double greatest_mean_ratio = 1.15;  ///< of the singular values, in a map that is as good as it gets
+  double good_mean_ratio = 1.03;      ///< of the singular values: good enough to stop at
+  double good_share_over = 0.01;      ///< of the area, with a ratio over 1.2: likewise
+  double greatest_mean_ratio = 1.15;  ///< in a map that is as good as it gets
   double iterations_per_diameter = 3;  ///< times the root of the number of vertices, and 40 more, are enough
 };
 

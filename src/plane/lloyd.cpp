@@ -17,6 +17,7 @@ Status Lloyd::begin(const Surface& surface, const FlatChart& flat, ChartSites& s
   ISOLOD_TRY(arena.scratch(sites.sample.count, target_));
   ISOLOD_TRY(corners_.begin(sites.plane.t.mesh.face_count(), arena));
   fill_weights(surface, options.weight);
+  if (is_exact()) ISOLOD_TRY(exact_.begin(ground_, corner_weight_, arena));
   for (VertexId v : Ids<VertexId>(sites.sample.count)) {
     target_[v] = sites.plane.point[v];
     look_up(v, locate(ground_, sites.home[v], sites.plane.point[v]));
@@ -29,19 +30,14 @@ void Lloyd::fill_weights(const Surface& surface, LloydWeight kind) {
   const Halfedges& mesh = flat_->chart.mesh;
   for (VertexId v : Ids<VertexId>(mesh.vertex_count())) {
     double area = 0, area_uv = 0;
-    const HalfedgeId first = mesh.outgoing[v];
-    HalfedgeId h = first;
-    do {
+    visit_outgoing(mesh, v, [&](HalfedgeId h) {
       area += face_area(surface, flat_->chart.faces[face(h)]);
       area_uv += 0.5 * cross(flat_->uv[mesh.target(h)] - flat_->uv[v], flat_->uv[mesh.apex(h)] - flat_->uv[v]);
-      h = mesh.turn_left(h);
-    } while (!h.is_none() && h != first);
-    do {
-      h = h.is_none() || h == first ? first : h;
+    });
+    visit_outgoing(mesh, v, [&](HalfedgeId h) {
       const double density = area / area_uv * surface.density(flat_->chart.on_surface(h));
       corner_weight_[h] = kind == LloydWeight::equal ? density * density : density;
-      h = mesh.turn_left(h);
-    } while (!h.is_none() && h != first);
+    });
   }
 }
 
@@ -114,8 +110,10 @@ void Lloyd::find_targets() {
   for (VertexId v : Ids<VertexId>(sites_->sample.count)) {
     if (!is_movable(v)) continue;
     make_cell(plane, corners_, site_weight_, v, cell);
-    const Moment moment = integrate(cell, plane.point[v], site_weight_[v]);
-    if (moment.mass > 0) target_[v] = plane.point[v] + options_.step / moment.mass * moment.first;
+    const Vec2 site = plane.point[v];
+    const Moment moment = is_exact() ? exact_.integrate(cell, site, sites_->home[v])
+                                     : integrate(cell, site, site_weight_[v]);
+    if (moment.mass > 0) target_[v] = site + options_.step / moment.mass * moment.first;
   }
 }
 

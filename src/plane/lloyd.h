@@ -9,6 +9,7 @@
 
 #include "isolod/options.h"
 #include "plane/chart_sites.h"
+#include "plane/exact_moment.h"
 #include "plane/locate.h"
 #include "plane/voronoi_cell.h"
 
@@ -17,12 +18,13 @@ inline namespace v1 {
 
 struct LloydOptions {
   LloydWeight weight = LloydWeight::equal;
+  Centroids centroids = Centroids::fast;
   double step = 1;  ///< times the way to the centroid
 };
 
 class Lloyd {
  public:
-  /// Scratch of 50 bytes a face and 40 a site stays with the caller's scope.
+  /// Scratch of 50 bytes a face (58 for exact centroids) and 40 a site stays with the caller's scope.
   Status begin(const Surface& surface, const FlatChart& flat, ChartSites& sites, std::uint32_t first_movable,
                const LloydOptions& options, Arena& arena);
 
@@ -36,6 +38,7 @@ class Lloyd {
   SurfacePlace lift(VertexId v) const;
 
  private:
+  bool is_exact() const { return options_.centroids == Centroids::exact; }
   bool is_movable(VertexId v) const { return sites_->sample[v].value >= first_movable_; }
   bool settle(VertexId v, Vec2 target);
   void fill_weights(const Surface& surface, LloydWeight kind);
@@ -54,6 +57,7 @@ class Lloyd {
   Span<double> site_weight_;
   Span<Vec2> target_;
   CellCorners corners_;
+  ExactMoment exact_;  // begun for Centroids::exact alone
 };
 
 }  // namespace v1

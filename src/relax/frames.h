@@ -30,7 +30,7 @@ struct FrameOptions {
   double line_rate = 0;          ///< R_f
   double samples_per_core = 60;
   double overlap = 3;            ///< wished edge lengths
-  FlattenOptions flatten{1e4, 1.2, 3};  ///< the weight corrects the stretch; the rim of an overlap does not matter
+  FlattenOptions flatten{1e4, 1.06, 0.05, 1.2, 2};  ///< the weight corrects the stretch; the rim of an overlap does not matter
 };
 
 /// A stage: begin, step until done, finish. Results: 4 bytes a face of the surface, and 10 a face and 12 a vertex of every frame.

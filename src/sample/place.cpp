@@ -67,12 +67,14 @@ Weights varying_place(const PieceDensities& sums, std::uint32_t k, std::uint32_t
 
 }  // namespace
 
-void place_samples(const Surface& surface, const Atlas& atlas, Span<const std::uint32_t> face_count,
+void place_samples(const Surface& surface, const FaceGroups& groups, Span<const std::uint32_t> face_count,
                    Span<std::uint32_t> start, Span<SurfacePlace> places) {
   std::uint32_t filled = 0;
-  for (std::size_t chart = 0; chart < atlas.chart_count(); ++chart) {
-    start[chart] = filled;
-    for (FaceId f : atlas.chart_faces(chart)) {
+  const std::size_t group_count = groups.start.count - 1;
+  for (std::size_t group = 0; group < group_count; ++group) {
+    start[group] = filled;
+    for (std::size_t i = groups.start[group]; i < groups.start[group + 1]; ++i) {
+      const FaceId f = groups.face[i];
       const double density[3] = {surface.density(halfedge(f, 0)), surface.density(halfedge(f, 1)),
                                  surface.density(halfedge(f, 2))};
       const bool varies = density[0] != density[1] || density[0] != density[2];
@@ -84,7 +86,7 @@ void place_samples(const Surface& surface, const Atlas& atlas, Span<const std::u
       }
     }
   }
-  start[atlas.chart_count()] = filled;
+  start[group_count] = filled;
 }
 
 }  // namespace v1

@@ -5,7 +5,7 @@
 // their density (after Rocchini and Cignoni, "Generating random points in a tetrahedron", 2000), Turk's map inside.
 #pragma once
 
-#include "atlas/chart.h"
+#include "mesh/surface.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -16,9 +16,15 @@ struct SurfacePlace {
   double weight1, weight2;
 };
 
-/// Fills `places`, chart by chart in the order of `atlas.faces`; sample i of chart c lies in start[c] to start[c + 1]. The counts
-/// sum to `places.count`. O(faces + samples) time, no memory.
-void place_samples(const Surface& surface, const Atlas& atlas, Span<const std::uint32_t> face_count,
+/// Faces in an order, cut into groups: group g is `face` from start[g] to start[g + 1].
+struct FaceGroups {
+  Span<const FaceId> face;
+  Span<const std::uint32_t> start;
+};
+
+/// Fills `places`, group by group; the samples of group g lie in start[g] to start[g + 1]. The counts sum to `places.count`.
+/// O(faces + samples) time, no memory.
+void place_samples(const Surface& surface, const FaceGroups& groups, Span<const std::uint32_t> face_count,
                    Span<std::uint32_t> start, Span<SurfacePlace> places);
 
 }  // namespace v1

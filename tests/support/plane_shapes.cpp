@@ -50,6 +50,17 @@ Soup bent(Soup soup, const std::function<Vec3(Vec3)>& way) {
   return soup;
 }
 
+Edges edges_where(const Soup& soup, const std::function<bool(Vec3, Vec3)>& belong) {
+  Edges edges;
+  for (const Soup::Triangle& t : soup.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      if (belong(soup.positions[a], soup.positions[b])) edges.push_back({a, b});
+    }
+  }
+  return edges;
+}
+
 Soup made_soup(const std::string& name, std::size_t triangles) {
   shapes::Shape shape;
   REQUIRE(shapes::make(name, triangles, shape));
@@ -66,8 +77,8 @@ Soup made_soup(const std::string& name, std::size_t triangles) {
 Soup rotated(const Soup& soup) {
   // A quaternion of whole numbers, 1 + 2 i + 3 j + 5 k, of squared length 39.
   return bent(soup, [](Vec3 p) {
-    return (1.0 / 39) * Vec3{-29 * p.x + 2 * p.y + 26 * p.z, 22 * p.x - 19 * p.y + 26 * p.z,
-                             14 * p.x + 34 * p.y + 13 * p.z};
+    return (1.0 / 39) *
+           Vec3{-29 * p.x + 2 * p.y + 26 * p.z, 22 * p.x - 19 * p.y + 26 * p.z, 14 * p.x + 34 * p.y + 13 * p.z};
   });
 }
 
@@ -229,8 +240,10 @@ PlaneMesh::PlaneMesh(const Points& points) : block(std::size_t{1 << 16} + 800 * 
     high = {greater(high.x, p.x), greater(high.y, p.y)};
   }
   const double rim = 0.0625 * (high.x - low.x + high.y - low.y);
-  const Vec2 corners[4] = {
-      {low.x - rim, low.y - rim}, {high.x + rim, low.y - rim}, {high.x + rim, high.y + rim}, {low.x - rim, high.y + rim}};
+  const Vec2 corners[4] = {{low.x - rim, low.y - rim},
+                           {high.x + rim, low.y - rim},
+                           {high.x + rim, high.y + rim},
+                           {low.x - rim, high.y + rim}};
   Halfedges& mesh = plane.t.mesh;
   mesh.origin.count = mesh.twin.count = plane.t.fixed.count = 6;
   mesh.outgoing.count = 4;
@@ -320,7 +333,8 @@ std::string broken_halfedge(const Triangulation& t, HalfedgeId h) {
   if (g.is_none()) return "";
   if (g.value >= mesh.halfedge_count() || t.is_dead(face(g))) return at("twin is dead of", h.value);
   if (mesh.twin[g] != h) return at("twin of twin of", h.value);
-  if (mesh.origin[g] != mesh.target(h) || mesh.target(g) != mesh.origin[h]) return at("twin is not opposite of", h.value);
+  if (mesh.origin[g] != mesh.target(h) || mesh.target(g) != mesh.origin[h])
+    return at("twin is not opposite of", h.value);
   return t.fixed[g] == t.fixed[h] ? "" : at("fixed on one side only at", h.value);
 }
 

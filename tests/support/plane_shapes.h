@@ -1,7 +1,7 @@
 // Surfaces, plane triangulations and naive checks for the tests of mesh, atlas and plane.
 //
-// Nothing here shares an algorithm with the library: points are put in by exhaustive search, invariants are checked over maps of
-// edges, predicates are those of support/exact.h.
+// Nothing here shares an algorithm with the library: points are put in by exhaustive search, invariants are checked
+// over maps of edges, predicates are those of support/exact.h.
 #pragma once
 
 #include <functional>
@@ -31,6 +31,8 @@ Soup square_grid(std::uint32_t n, double side = 1);
 Soup grid_where(std::uint32_t n, const std::function<bool(std::uint32_t, std::uint32_t)>& has_quad);
 /// Vertices moved by a function of their position.
 Soup bent(Soup soup, const std::function<isolod::Vec3(isolod::Vec3)>& way);
+/// All edges of the soup between two positions that belong together, for tags.
+Edges edges_where(const Soup& soup, const std::function<bool(isolod::Vec3, isolod::Vec3)>& belong);
 /// A named shape of tools/isolod/shapes.h.
 Soup made_soup(const std::string& name, std::size_t triangles);
 /// Each vertex turned by a rotation that is on no axis.

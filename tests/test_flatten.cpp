@@ -41,7 +41,7 @@ struct Flat {
   double greatest_strain() const {
     double strain = 0;
     for (const Soup::Triangle& t : piece.soup.triangles) {
-      for (int k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t a = t[k], b = t[(k + 1) % 3];
         const double before = distance(piece.soup.positions[a], piece.soup.positions[b]);
         strain = greater(strain, absolute(distance(uv[a], uv[b]) / before - 1));
@@ -53,7 +53,7 @@ struct Flat {
   double turn(std::uint32_t v) const {
     double sum = 0;
     for (const Soup::Triangle& t : piece.soup.triangles) {
-      for (int k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < 3; ++k) {
         if (t[k] != v) continue;
         const Vec2 a = uv[t[(k + 1) % 3]] - uv[v], b = uv[t[(k + 2) % 3]] - uv[v];
         sum += std::atan2(cross(a, b), dot(a, b));

@@ -46,9 +46,10 @@ struct Relaxed {
   std::uint32_t first_movable;
 };
 
-LloydOptions with(LloydWeight weight, double step = 1) {
+LloydOptions with(LloydWeight weight, double step = 1, Centroids centroids = Centroids::fast) {
   LloydOptions options;
   options.weight = weight;
+  options.centroids = centroids;
   options.step = step;
   return options;
 }
@@ -110,7 +111,7 @@ TEST_CASE("lloyd: no face is inverted after any iteration, however wild the star
       SampledPiece sampled(piece, 150);
       Random random(seed);
       scatter(sampled, random, seed < 3 ? 72 : 5);  // all over, or crowded in a corner
-      Relaxed relaxed(sampled, with(LloydWeight::equal, step));
+      Relaxed relaxed(sampled, with(LloydWeight::equal, step, seed % 3 == 0 ? Centroids::exact : Centroids::fast));
       REQUIRE(support::inverted_faces(relaxed.sites.plane) == 0);
       const long euler = support::euler(relaxed.sites.plane.t);
       for (int i = 0; i < 25; ++i) {
@@ -128,7 +129,7 @@ TEST_CASE("lloyd: uniform weight never lets the energy rise on a square, and spr
     SampledPiece sampled(piece, 90);
     Random random(seed);
     scatter(sampled, random, 72);
-    Relaxed relaxed(sampled, with(LloydWeight::equal));
+    Relaxed relaxed(sampled, with(LloydWeight::equal, 1, seed == 1 ? Centroids::exact : Centroids::fast));
     double before = energy(relaxed.sites.plane, 120);
     const double first = before;
     for (int i = 0; i < 30; ++i) {
@@ -158,22 +159,38 @@ TEST_CASE("lloyd: the way to go gets shorter, and sites on lines never move") {
   CHECK(still > 20);
 }
 
-TEST_CASE(
-    "lloyd: with the equal weight the realised density follows the wished one, and the printed weight lags behind") {
+TEST_CASE("lloyd: the realised density follows the wished one, and with the printed weight lags behind") {
   const auto density = [](double x) { return 1 + 7 * x; };
-  double slope[2];
-  for (const LloydWeight weight : {LloydWeight::equal, LloydWeight::paper}) {
+  const auto slope = [&](LloydWeight weight, Centroids centroids) {
     Piece piece(support::square_grid(16));
     piece.set_density([&](Vec3 p) { return density(p.x); });
     SampledPiece sampled(piece, 900);
-    Relaxed relaxed(sampled, with(weight));
+    Relaxed relaxed(sampled, with(weight, 1, centroids));
     for (int i = 0; i < 120; ++i) relaxed.lloyd.iterate();
     check_sound(relaxed, 1);
-    slope[weight == LloydWeight::paper] = density_slope(relaxed, [&](Vec2 p) { return density(p.x); });
+    return density_slope(relaxed, [&](Vec2 p) { return density(p.x); });
+  };
+  for (const Centroids centroids : {Centroids::fast, Centroids::exact}) {
+    const double equal = slope(LloydWeight::equal, centroids), paper = slope(LloydWeight::paper, centroids);
+    INFO("slopes " << equal << " and " << paper);
+    CHECK(equal > 0.92);
+    CHECK(equal < 1.1);
+    CHECK(paper < equal - 0.05);  // it has drifted only so far
   }
-  CHECK(slope[0] > 0.85);
-  CHECK(slope[0] < 1.1);
-  CHECK(slope[1] < slope[0] - 0.1);
+}
+
+TEST_CASE("lloyd: exact and fast centroids agree where the weight is uniform") {
+  std::vector<Vec2> points[2];
+  for (const Centroids centroids : {Centroids::fast, Centroids::exact}) {
+    Piece piece(support::square_grid(6));
+    SampledPiece sampled(piece, 150);
+    Relaxed relaxed(sampled, with(LloydWeight::equal, 1, centroids));
+    relaxed.lloyd.iterate();
+    const Span<Vec2> now = relaxed.sites.plane.point;
+    points[centroids == Centroids::exact].assign(now.begin(), now.end());
+  }
+  REQUIRE(points[0].size() == points[1].size());
+  for (std::size_t i = 0; i < points[0].size(); ++i) CHECK(distance(points[0][i], points[1][i]) < 1e-6);
 }
 
 TEST_CASE("lloyd: a stretched map is made up for: sites are even on the surface") {

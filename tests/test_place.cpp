@@ -1,3 +1,4 @@
+#include "atlas/chart.h"
 #include "sample/place.h"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ struct Field {
     for (std::uint32_t c : count) sum += c;
     std::vector<SurfacePlace> places(sum);
     start.assign(chart_start.size(), 77);
-    place_samples(surface, atlas, {count.data(), count.size()}, {start.data(), start.size()},
+    place_samples(surface, {atlas.faces, atlas.start}, {count.data(), count.size()}, {start.data(), start.size()},
                   {places.data(), places.size()});
     return places;
   }

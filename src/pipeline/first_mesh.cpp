@@ -61,7 +61,10 @@ std::uint64_t least_budget(const State& s, const DensityIntegrals& integrals) {
 
 /// Plans at most so many splits, and what the first mesh is made of.
 void plan_run(State& s, const DensityIntegrals& integrals, std::uint32_t most_splits) {
-  s.plan = plan_levels(s.options.vertex_count, integrals.euler_characteristic, most_splits, least_first_count);
+  const std::int64_t handles = std::int64_t{s.report.components} - integrals.euler_characteristic / 2;
+  const std::int64_t least = least_first_count + 60 * (s.report.components + handles);
+  s.plan = plan_levels(s.options.vertex_count, integrals.euler_characteristic, most_splits,
+                       static_cast<std::uint32_t>(least));
   s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
 }
 
@@ -105,6 +108,15 @@ Status step_atlas(State& s, bool& done, std::uint64_t& units) {
   return {};
 }
 
+/// Too coarse a first mesh does not resolve the shape: its stars fit no map. All is done again from a finer one.
+void restart_finer(State& s) {
+  s.arena->rewind_results(s.before_atlas);
+  s.arena->rewind_scratch(s.before_atlas);
+  for (std::uint8_t& l : s.surface.line) l = l & line_feature;
+  plan_run(s, integrate_density(s.surface), s.plan.splits - 1);
+  s.next_stage = atlas_stage;
+}
+
 Status step_lines(State& s, bool& done, std::uint64_t& units) {
   ISOLOD_TRY(chain_backbones(s.surface, s.backbones, *s.arena));
   if (s.options.calibration == Calibration::paper) {
@@ -114,8 +126,14 @@ Status step_lines(State& s, bool& done, std::uint64_t& units) {
   }
   const std::uint64_t budget = s.plan.first_count, nodes = s.backbones.node.count;
   const std::uint32_t room = budget > nodes ? static_cast<std::uint32_t>(budget - nodes) : 0;
-  const Status status = sample_lines(s.surface, s.backbones, s.first_rates.line, room, s.lines, *s.arena);
-  if (status == Status::budget_too_small) return fail(status.code, status.element, status.value + nodes);
+  Status status = sample_lines(s.surface, s.backbones, s.first_rates.line, room, s.lines, *s.arena);
+  if (status == Status::budget_too_small) status.value += nodes;
+  if (status.is_ok() && nodes > budget) status = fail(Status::budget_too_small, Element::count, nodes);
+  if (status == Status::budget_too_small && s.plan.splits > 0) {
+    restart_finer(s);
+    done = true;
+    return {};
+  }
   ISOLOD_TRY(status);
   s.numbers = {static_cast<std::uint32_t>(nodes), static_cast<std::uint32_t>(s.lines.place.count)};
   units = face_units(s);
@@ -187,15 +205,6 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
   done = true;
   return gather_samples(s.sampled(), s.samples, *s.arena);
-}
-
-/// Too coarse a first mesh does not resolve the shape: its stars fit no map. All is done again from a finer one.
-void restart_finer(State& s) {
-  s.arena->rewind_results(s.before_atlas);
-  s.arena->rewind_scratch(s.before_atlas);
-  for (std::uint8_t& l : s.surface.line) l = l & line_feature;
-  plan_run(s, integrate_density(s.surface), s.plan.splits - 1);
-  s.next_stage = atlas_stage;
 }
 
 Status step_levels(State& s, bool& done, std::uint64_t& units) {

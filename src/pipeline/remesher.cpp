@@ -8,13 +8,18 @@ inline namespace v1 {
 
 namespace {
 
+/// The place of a member of `Options`, as a status names it.
+enum class Member : std::uint8_t { vertex_count, feature_angle, corner_angle, density, gamma };
+
+Status refuse(Member member) { return fail(Status::invalid_option, Element::option, static_cast<std::uint64_t>(member)); }
+
 Status check_options(const Options& options) {
-  const bool angles = options.feature_angle >= 0 && options.feature_angle <= 180 && options.corner_angle > 0 &&
-                      options.corner_angle <= 180;
-  if (options.vertex_count == 0) return fail(Status::invalid_option, Element::option, 0);
-  if (options.vertex_count > (UINT32_MAX >> 3)) return fail(Status::too_large, Element::count, UINT32_MAX >> 3);
-  if (!angles) return fail(Status::invalid_option, Element::option, 1);
-  if (!(options.gamma >= 0 && options.gamma <= 8)) return fail(Status::invalid_option, Element::option, 4);
+  constexpr std::uint32_t most_vertices = UINT32_MAX >> 3;
+  if (options.vertex_count == 0) return refuse(Member::vertex_count);
+  if (options.vertex_count > most_vertices) return fail(Status::too_large, Element::count, most_vertices);
+  if (!(options.feature_angle >= 0 && options.feature_angle <= 180)) return refuse(Member::feature_angle);
+  if (!(options.corner_angle > 0 && options.corner_angle <= 180)) return refuse(Member::corner_angle);
+  if (!(options.gamma >= 0 && options.gamma <= 8)) return refuse(Member::gamma);
   return {};
 }
 
@@ -110,23 +115,48 @@ Status deliver(const ResultMesh& mesh, const MeshSink& sink) {
 
 }  // namespace
 
+namespace {
+
+/// One whole run; what it took of the arena stays taken.
+Status run(const MeshView& view, const Options& options, const Hooks& hooks, Remesher& remesher, Arena& arena) {
+  ISOLOD_TRY(remesher.begin(view, options, hooks, arena));
+  return remesher.advance(UINT64_MAX - 1);
+}
+
+/// The charts, and with them what they need at least, change with the budget, so the number that a status names is tried out.
+std::uint64_t number_that_works(const MeshView& view, Options options, std::uint64_t named, Arena& arena) {
+  constexpr std::uint32_t most_tries = 16;
+  const ArenaMark mark = arena.mark();
+  for (std::uint32_t i = 0; i < most_tries && named < (UINT32_MAX >> 3); ++i) {
+    options.vertex_count = static_cast<std::uint32_t>(named);
+    Remesher remesher;
+    const Status status = run(view, options, {}, remesher, arena);
+    arena.rewind_results(mark);
+    arena.rewind_scratch(mark);
+    if (status.is_ok() || status == Status::out_of_memory) break;
+    named = status == Status::budget_too_small && status.value > named ? status.value : named + named / 4 + 1;
+  }
+  return named;
+}
+
+}  // namespace
+
 Status remesh(const MeshView& view, const Options& options, const MeshSink& sink, Report* report, Arena& arena,
               const Hooks& hooks) {
   const ArenaMark mark = arena.mark();
   Remesher remesher;
-  Status status = remesher.begin(view, options, hooks, arena);
-  if (status.is_ok()) {
-    status = remesher.advance(UINT64_MAX - 1);
-    if (status == Status::out_of_memory) {
-      const std::size_t enough = required_memory(view.vertex_count, view.triangle_count, options);
-      if (status.value < enough) status.value = enough;
-    }
-    if (report != nullptr) *report = remesher.report();
-    if (status.is_ok()) status = deliver(remesher.result(), sink);
-  }
-  if (report != nullptr) report->status = status;
+  Status status = run(view, options, hooks, remesher, arena);
+  if (report != nullptr && remesher.state() != nullptr) *report = remesher.report();
+  if (status.is_ok()) status = deliver(remesher.result(), sink);
   arena.rewind_results(mark);
   arena.rewind_scratch(mark);
+  if (status == Status::out_of_memory) {
+    const std::size_t enough = required_memory(view.vertex_count, view.triangle_count, options);
+    if (status.value < enough) status.value = enough;
+  } else if (status == Status::budget_too_small) {
+    status.value = number_that_works(view, options, status.value, arena);
+  }
+  if (report != nullptr) report->status = status;
   return status;
 }
 

@@ -77,28 +77,31 @@ Status mark_tags(Surface& surface, Arena& arena) {
   return {};
 }
 
-/// The turn of the line at a vertex of exactly two feature edges, in degrees; 180 for any other number but none.
-double feature_turn(const Surface& surface, VertexId v) {
-  const Halfedges& mesh = surface.mesh;
+/// The feature edges of a vertex: how many, and where the first two lead.
+struct FeatureStar {
+  std::size_t degree = 0;
   Vec3 away[2] = {};
-  std::size_t found = 0;
+
+  void add(Vec3 direction) {
+    if (degree < 2) away[degree] = direction;
+    ++degree;
+  }
+};
+
+FeatureStar feature_star(const Surface& surface, VertexId v) {
+  FeatureStar star;
   const Vec3 here = surface.position(v);
-  const HalfedgeId first = mesh.outgoing[v];
-  HalfedgeId h = first;
-  do {
-    if (surface.line[h] & line_feature) {
-      if (found < 2) away[found] = surface.position(mesh.target(h)) - here;
-      ++found;
-    }
-    const HalfedgeId left = mesh.turn_left(h);
-    if (left.is_none()) {
-      if (found < 2) away[found] = surface.position(mesh.apex(h)) - here;
-      ++found;
-    }
-    h = left;
-  } while (!h.is_none() && h != first);
-  if (found == 0) return 0;
-  return found == 2 ? 180 - angle_between(away[0], away[1]) : 180;
+  visit_outgoing(surface.mesh, v, [&](HalfedgeId h) {
+    if (surface.line[h] & line_feature) star.add(surface.position(surface.mesh.target(h)) - here);
+    if (surface.mesh.turn_left(h).is_none()) star.add(surface.position(surface.mesh.apex(h)) - here);
+  });
+  return star;
+}
+
+bool is_corner(const Surface& surface, VertexId v, double corner_angle) {
+  const FeatureStar star = feature_star(surface, v);
+  if (star.degree != 2) return star.degree != 0;
+  return 180 - angle_between(star.away[0], star.away[1]) > corner_angle;
 }
 
 }  // namespace
@@ -111,7 +114,7 @@ Status find_features(Surface& surface, const FeatureOptions& options, Arena& are
   mark_materials(surface);
   ISOLOD_TRY(mark_tags(surface, arena));
   for (VertexId v : Ids<VertexId>(surface.mesh.vertex_count())) {
-    surface.corner[v] = feature_turn(surface, v) > options.corner_angle;
+    surface.corner[v] = is_corner(surface, v, options.corner_angle);
   }
   return {};
 }

@@ -174,7 +174,7 @@ void SampledPiece::sample(std::uint32_t vertex_count) {
   REQUIRE(arena.result(atlas.chart_count() + 1, chart_start).is_ok());
   REQUIRE(arena.result(surface.mesh.face_count(), face_count).is_ok());
   REQUIRE(diffuse(surface, backbones, lines, rates.surface, inside, face_count, arena).is_ok());
-  place_samples(surface, atlas, face_count, chart_start, places);
+  place_samples(surface, {atlas.faces, atlas.start}, face_count, chart_start, places);
 }
 
 // ---- points and plane triangulations

@@ -147,7 +147,7 @@ Status tell_story(const SampledSurface& samples, Span<const Vec2f> uv, std::size
   teller.name_sites(sites);
   teller.draw_sites(sites, story.before);
   const std::uint32_t first_movable = samples.numbers.node_count + samples.numbers.line_count;
-  ISOLOD_TRY(lloyd.begin(*samples.surface, flat, sites, first_movable, {options.weight, 1}, arena));
+  ISOLOD_TRY(lloyd.begin(*samples.surface, flat, sites, first_movable, {options.weight, options.centroids, 1}, arena));
   lloyd.untangle();
   for (std::uint32_t i = 0; i < options.lloyd_iterations; ++i) lloyd.iterate();
   teller.draw_sites(sites, story.after);

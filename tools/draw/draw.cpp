@@ -1,6 +1,7 @@
 #include "draw/draw.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -60,11 +61,26 @@ class Artist {
 
   Status keep(const std::string& name, bool is_written) {
     if (is_written) {
-      outcome_.files.push_back(path(name));
+      if (!is_kept(path(name))) outcome_.files.push_back(path(name));
       return {};
     }
     outcome_.unwritten = path(name);
     return Status::cannot_open;
+  }
+
+  bool is_kept(const std::string& file) const {
+    return std::find(outcome_.files.begin(), outcome_.files.end(), file) != outcome_.files.end();
+  }
+
+  /// A run may begin again with more samples; its charts are others then.
+  void forget_charts() {
+    const std::string prefix = path("4_chart_");
+    const auto is_old = [&](const std::string& file) {
+      const bool is_chart = file.compare(0, prefix.size(), prefix) == 0;
+      if (is_chart) std::remove(file.c_str());
+      return is_chart;
+    };
+    outcome_.files.erase(std::remove_if(outcome_.files.begin(), outcome_.files.end(), is_old), outcome_.files.end());
   }
 
   Status draw_first(const Remesher::State& state) {
@@ -74,6 +90,7 @@ class Artist {
 
   Status draw_middle(const Remesher::State& state) {
     const isolod::SampledSurface samples = state.sampled();
+    forget_charts();
     ISOLOD_TRY(keep("2_charts.svg", draw_charts(path("2_charts.svg"), frame_, state.surface, state.atlas)));
     ISOLOD_TRY(keep("3_samples.svg", draw_samples(path("3_samples.svg"), frame_, samples, state.options.vertex_count)));
     const std::size_t largest = greatest_chart(state, false), featured = greatest_chart(state, true);

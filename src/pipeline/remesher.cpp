@@ -162,9 +162,11 @@ Status remesh(const MeshView& view, const Options& options, const MeshSink& sink
 
 std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options) {
   const std::size_t samples = options.vertex_count;
-  // Refinement splits a triangle into pieces of about a wished edge length; long thin ones are the worst, up to root V pieces each.
+  // Refinement splits a triangle into pieces of about a wished edge length; long thin ones are the worst, up to about root V pieces
+  // each, and no more of them than there are samples can be long.
+  const std::size_t long_ones = triangle_count < samples ? triangle_count : samples;
   const std::size_t refined = triangle_count + 6 * samples +
-                              static_cast<std::size_t>(0.25 * square_root(static_cast<double>(samples))) * triangle_count;
+                              static_cast<std::size_t>(0.25 * square_root(static_cast<double>(samples))) * long_ones;
   return (std::size_t{1} << 20) + 120 * vertex_count + 600 * refined + 2000 * samples;
 }
 

@@ -44,6 +44,54 @@ void take_node(const Surface& surface, VertexId v, Span<double> wish) {
   wish[face(first)] += taken - angle / two_pi;
 }
 
+/// Lets faces beside lines, which owe more than they carry, take it from the nearest faces that carry some, breadth first and never
+/// over a feature. Else their debt would flow down the tree and starve what lies there.
+class LocalDebts {
+ public:
+  Status begin(const Surface& surface, Span<double> wish, Arena& arena) {
+    surface_ = &surface;
+    wish_ = wish;
+    ISOLOD_TRY(arena.scratch(wish.count, queue_));
+    ISOLOD_TRY(arena.scratch(wish.count, seen_by_));
+    for (FaceId& f : seen_by_) f = none<FaceId>();
+    return {};
+  }
+
+  void settle() {
+    for (FaceId f : Ids<FaceId>(wish_.count)) {
+      if (wish_[f] < 0) settle(f);
+    }
+  }
+
+ private:
+  void settle(FaceId debtor) {
+    std::size_t tail = 0;
+    double debt = -wish_[debtor];
+    const auto enter = [&](FaceId f) {
+      seen_by_[f] = debtor;
+      queue_[tail++] = f;
+    };
+    enter(debtor);
+    for (std::size_t head = 0; head < tail && head < most_faces && debt > 0; ++head) {
+      double& wish = wish_[queue_[head]];
+      const double paid = wish > 0 ? smaller(wish, debt) : 0;
+      wish -= paid;
+      debt -= paid;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const HalfedgeId h = halfedge(queue_[head], k), t = surface_->mesh.twin[h];
+        if (t.is_none() || (surface_->line[h] & line_feature) != 0 || seen_by_[face(t)] == debtor) continue;
+        enter(face(t));
+      }
+    }
+    wish_[debtor] = -debt;
+  }
+
+  static constexpr std::size_t most_faces = 4096;  // a search that finds nothing within so many leaves the rest to the tree
+  const Surface* surface_ = nullptr;
+  Span<double> wish_;
+  Span<FaceId> queue_, seen_by_;
+};
+
 /// Faces breadth first, component after component, with the side towards the parent (none at a root).
 struct SpanningTree {
   Span<FaceId> order;
@@ -138,6 +186,9 @@ Status diffuse(const Surface& surface, const Backbones& backbones, const LineSam
   // What curvature and rounding leave over is spread like the density.
   const double correction = (static_cast<double>(surface_samples) - wished) / density;
   for (FaceId f : Ids<FaceId>(wish.count)) wish[f] += correction * face_density(surface, f);
+  LocalDebts debts;
+  ISOLOD_TRY(debts.begin(surface, wish, arena));
+  debts.settle();
   fix_wishes(wish, surface_samples, fixed);
   flow_to_roots(surface.mesh, tree, fixed, face_count);
   return {};

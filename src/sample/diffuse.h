@@ -12,7 +12,7 @@
 namespace isolod {
 inline namespace v1 {
 
-/// Fills `face_count`, given with one entry a face, so that its sum is `surface_samples`. Scratch: about 24 bytes a face. O(n) time.
+/// Fills `face_count`, given with one entry a face, so that its sum is `surface_samples`. Scratch: about 40 bytes a face. O(n) time.
 Status diffuse(const Surface& surface, const Backbones& backbones, const LineSamples& lines, double surface_rate,
                std::uint32_t surface_samples, Span<std::uint32_t> face_count, Arena& arena);
 

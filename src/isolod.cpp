@@ -12,6 +12,7 @@
 #include "mesh/repair_flat.cpp"
 #include "mesh/repair_pair.cpp"
 #include "mesh/repair_sheets.cpp"
+#include "mesh/surface.cpp"
 #include "mesh/triangulation.cpp"
 #include "mesh/validate.cpp"
 
@@ -23,9 +24,12 @@
 #include "sample/backbones.cpp"
 #include "sample/calibrate.cpp"
 #include "sample/diffuse.cpp"
+#include "sample/keep_shape.cpp"
 #include "sample/line_samples.cpp"
+#include "sample/lloyd_line.cpp"
 #include "sample/place.cpp"
 #include "sample/samples.cpp"
+#include "sample/track.cpp"
 
 #include "atlas/chart.cpp"
 #include "atlas/partition.cpp"
@@ -39,6 +43,7 @@
 #include "plane/lscm.cpp"
 #include "plane/voronoi_cell.cpp"
 
+#include "result/feature_lines.cpp"
 #include "result/lift.cpp"
 #include "result/stitch.cpp"
 

@@ -243,5 +243,5 @@ TEST_CASE("keep_shape: too little memory changes nothing") {
 }
 
 TEST_CASE("keep_shape: the bounding box") {
-  CHECK(bounding_diagonal(Rim(support::fan(support::square(4)), 3).surface) == doctest::Approx(std::sqrt(8.0)));
+  CHECK(diagonal(Rim(support::fan(support::square(4)), 3).surface) == doctest::Approx(std::sqrt(8.0)));
 }

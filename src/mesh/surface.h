@@ -59,6 +59,9 @@ inline double face_density(const Surface& surface, FaceId f) {
   return face_area(surface, f) * sum / 3;
 }
 
+/// The diagonal of the bounding box. O(vertices).
+double diagonal(const Surface& surface);
+
 /// The halfedge that begins the wedge of `h`: clockwise from `h` the first on a line, or h itself where the vertex has none.
 inline HalfedgeId wedge_start(const Surface& surface, HalfedgeId h) {
   const HalfedgeId first = h;

@@ -2,6 +2,7 @@
 #include "mesh/validate.h"
 #include "base/hash.h"
 #include "pipeline/state.h"
+#include "result/feature_lines.h"
 #include "result/lift.h"
 #include "surface/density.h"
 #include "surface/features.h"
@@ -204,7 +205,8 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   ISOLOD_TRY(s.stitch.finish(*s.arena));
   units = s.options.vertex_count;
   done = true;
-  return gather_samples(s.sampled(), s.samples, *s.arena);
+  ISOLOD_TRY(gather_samples(s.sampled(), s.samples, *s.arena));
+  return sample_features_anew(s.surface, s.options.weight, s.samples, *s.arena);
 }
 
 Status step_levels(State& s, bool& done, std::uint64_t& units) {

@@ -289,17 +289,6 @@ class ShapeKeeper {
 
 }  // namespace
 
-double bounding_diagonal(const Surface& surface) {
-  if (surface.mesh.vertex_count() == 0) return 0;
-  Vec3 low = surface.position(VertexId{0}), high = low;
-  for (VertexId v : Ids<VertexId>(surface.mesh.vertex_count())) {
-    const Vec3 p = surface.position(v);
-    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
-    high = {greater(high.x, p.x), greater(high.y, p.y), greater(high.z, p.z)};
-  }
-  return distance(low, high);
-}
-
 Status keep_line_shape(const Surface& surface, const Backbones& backbones, double tolerance, LineSamples& samples,
                        Span<std::uint8_t> pinned, Arena& arena) {
   const ScratchScope scope(arena);

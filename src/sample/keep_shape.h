@@ -25,9 +25,6 @@ inline namespace v1 {
 /// The design's tolerance, as a share of the diagonal of the bounding box.
 constexpr double line_shape_tolerance = 0.0002;
 
-/// The diagonal of the surface's bounding box. O(vertices).
-double bounding_diagonal(const Surface& surface);
-
 /// `tolerance` is a length. `pinned` has one flag a line sample and is filled.
 Status keep_line_shape(const Surface& surface, const Backbones& backbones, double tolerance, LineSamples& samples,
                        Span<std::uint8_t> pinned, Arena& arena);

@@ -154,12 +154,14 @@ class SkeletonDiffusion {
   Span<std::uint8_t> processed_;
 };
 
-/// Puts the inner samples of one backbone at equal steps of density.
-void place_on_backbone(const Surface& surface, const Backbones& backbones, std::size_t b, const Wish& wish,
-                       Span<LinePlace> places) {
-  const double step = wish.density / wish.granted;
-  const double phase = wish.ends.first == UINT32_MAX ? 0.5 : 1;
-  double passed = 0;
+}  // namespace
+
+void spread_on_backbone(const Surface& surface, const Backbones& backbones, std::size_t b, Span<LinePlace> places) {
+  const bool closed = is_closed(surface, backbones, b);
+  double density = 0, passed = 0;
+  for (HalfedgeId h : backbones.edges(b)) density += edge_density(surface, h);
+  const double step = density / static_cast<double>(places.count + (closed ? 0 : 1));
+  const double phase = closed ? 0.5 : 1;
   std::size_t placed = 0;
   const std::uint32_t first = backbones.start[b], last = backbones.start[b + 1] - 1;
   for (std::uint32_t e = first; e <= last; ++e) {
@@ -173,8 +175,6 @@ void place_on_backbone(const Surface& surface, const Backbones& backbones, std::
     passed += here;
   }
 }
-
-}  // namespace
 
 Status sample_lines(const Surface& surface, const Backbones& backbones, double line_rate, std::uint32_t room,
                     LineSamples& samples, Arena& arena) {
@@ -202,7 +202,7 @@ Status sample_lines(const Surface& surface, const Backbones& backbones, double l
   for (std::size_t b = 0; b < wishes.count; ++b) {
     const std::uint32_t count = wishes[b].granted - (wishes[b].ends.first == UINT32_MAX ? 0u : 1u);
     samples.start[b] = filled;
-    place_on_backbone(surface, backbones, b, wishes[b], samples.place.slice(filled, count));
+    spread_on_backbone(surface, backbones, b, samples.place.slice(filled, count));
     filled += count;
   }
   samples.start[wishes.count] = filled;

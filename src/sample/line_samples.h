@@ -34,5 +34,8 @@ struct LineSamples {
 Status sample_lines(const Surface& surface, const Backbones& backbones, double line_rate, std::uint32_t room,
                     LineSamples& samples, Arena& arena);
 
+/// Puts the inner samples of one backbone at equal steps of density.
+void spread_on_backbone(const Surface& surface, const Backbones& backbones, std::size_t b, Span<LinePlace> places);
+
 }  // namespace v1
 }  // namespace isolod

@@ -2,7 +2,6 @@
 
 #include "base/elementary.h"
 #include "base/status.h"
-#include "surface/flat_flips.h"
 
 namespace isolod {
 inline namespace v1 {

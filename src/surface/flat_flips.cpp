@@ -5,16 +5,6 @@
 namespace isolod {
 inline namespace v1 {
 
-double diagonal(const Surface& surface) {
-  Vec3 low = surface.position(VertexId{0}), high = low;
-  for (VertexId v : Ids<VertexId>(surface.mesh.vertex_count())) {
-    const Vec3 p = surface.position(v);
-    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
-    high = {greater(high.x, p.x), greater(high.y, p.y), greater(high.z, p.z)};
-  }
-  return distance(low, high);
-}
-
 double flatness_tolerance(const Surface& surface) { return 1e-7 * diagonal(surface); }
 
 namespace {

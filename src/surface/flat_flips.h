@@ -18,8 +18,5 @@ double flatness_tolerance(const Surface& surface);
 /// time a sweep, no memory.
 void flip_flat_edges(Surface& surface, double tolerance, std::uint32_t most_sweeps);
 
-/// The diagonal of the bounding box.
-double diagonal(const Surface& surface);
-
 }  // namespace v1
 }  // namespace isolod

@@ -3,7 +3,7 @@
 // Seeds are placed one after the other at the face farthest from those before, distance measured over the dual graph in
 // wished edge lengths, until no face is farther than a radius; then a few rounds of Lloyd's algorithm on regions make them
 // round (Cohen-Steiner, Alliez and Desbrun, "Variational shape approximation", 2004, has the same scheme with another
-// metric). Ears are given to the neighbour whose border they shorten. All ties go to the lower index.
+// metric). Ears are given to the neighbour whose border they shorten. Equal distances go to the label that spread later, other ties to the lower index.
 #pragma once
 
 #include "base/heap.h"

@@ -43,6 +43,8 @@ class Relaxation {
   void move(VertexId v, RelaxReport& report);
   void move_in_space(VertexId v);
   void flip_around(VertexId v, RelaxReport& report);
+  void flip_between_lines(RelaxReport& report);
+  bool wants_flip_in_space(HalfedgeId h) const;
   bool wants_flip(HalfedgeId h) const;
   bool point_of(VertexId v, Vec2& point) const;
 

@@ -66,7 +66,7 @@ std::vector<double> naive_distances(const Surface& surface, FaceId seed, double 
       const bool line = (surface.line[h] & line_feature) != 0;
       if (line && barriers) continue;
       const FaceId f = face(h), g = face(mesh.twin[h]);
-      const double step = 1e-6 + line_rate * distance(centre(f), centre(g)) + (line ? 3 : 0);
+      const double step = least_step + line_rate * distance(centre(f), centre(g)) + (line ? line_crossing_cost : 0);
       if (far[f.value] + step < far[g.value] * (1 - 1e-12)) far[g.value] = far[f.value] + step, changed = true;
     }
   }

@@ -1,6 +1,5 @@
 // The whole way from a caller's triangles to the sink: what is promised of every run.
 //
-// A case marked should_fail shows a defect that is still open: mend it, and take the mark away.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -180,7 +179,7 @@ TEST_CASE("remesher: no triangle looks the wrong way") {
   }
 }
 
-TEST_CASE("remesher: a thin tube is not folded" * doctest::should_fail()) {
+TEST_CASE("remesher: a thin tube is not folded") {
   const shapes::Shape shape = made("tube200", 3000);
   for (const std::uint32_t vertices : {1500U, 3000U}) {
     const Run run = support::run(view_of(shape), with_vertices(vertices));
@@ -351,7 +350,7 @@ TEST_CASE("remesher: a corner angle out of its range is an error that names it")
   }
 }
 
-TEST_CASE("remesher: a given density that is not there names the option" * doctest::should_fail()) {
+TEST_CASE("remesher: a given density that is not there names the option") {
   Options options = with_vertices(50);
   options.density = DensitySource::given;
   const shapes::Shape shape = made("sphere", 80);
@@ -507,7 +506,7 @@ TEST_CASE("remesher: the report counts what there is") {
   CHECK(r.arena_bytes == most);
 }
 
-TEST_CASE("remesher: a sample on a feature counts as one also where a seam ends there" * doctest::should_fail()) {
+TEST_CASE("remesher: a sample on a feature counts as one also where a seam ends there") {
   const shapes::Shape shape = made("plate3", 800);
   const Run run = support::run(view_of(shape), with_vertices(900));
   REQUIRE(run.status.is_ok());

@@ -83,7 +83,7 @@ class Remesher {
 
   bool done() const;
   ResultMesh result() const;  ///< once done
-  const Report& report() const;
+  const Report& report() const;  ///< only after a `begin` that succeeded
 
   struct State;
   /// What the run holds between two calls, for tools that draw and test the stages (pipeline/state.h). Null before `begin`.

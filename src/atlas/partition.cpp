@@ -7,8 +7,6 @@ inline namespace v1 {
 
 namespace {
 
-constexpr double line_crossing_cost = 8;  // wished edge lengths: borders prefer to lie on lines
-constexpr double least_step = 1e-6;       // so that two faces are never at no distance
 constexpr std::uint32_t ear_rounds = 4;
 
 Vec3 face_centre(const Surface& surface, FaceId f) {

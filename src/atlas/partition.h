@@ -18,6 +18,9 @@ enum class Lines : std::uint8_t {
   barriers,  ///< never crossed
 };
 
+constexpr double line_crossing_cost = 8;  ///< wished edge lengths
+constexpr double least_step = 1e-6;       ///< so that two faces are never at no distance
+
 /// Shortest ways over the dual graph from several seed faces at once, grown seed by seed.
 class DualDistance {
  public:

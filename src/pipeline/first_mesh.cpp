@@ -142,16 +142,14 @@ Status step_lines(State& s, bool& done, std::uint64_t& units) {
   return {};
 }
 
+/// What the first mesh is made of. A node where a seam meets a feature is the feature's.
 void count_samples(State& s) {
   Report& report = s.report;
   report.backbones = static_cast<std::uint32_t>(s.backbones.count());
-  report.seam_samples = report.feature_samples = 0;
-  for (std::size_t b = 0; b < s.backbones.count(); ++b) {
-    (is_feature(s.surface, s.backbones, b) ? report.feature_samples : report.seam_samples) += s.lines.inner_count(b);
-  }
-  report.feature_samples += report.corners;
-  report.seam_samples += s.numbers.node_count - report.corners;
   report.surface_samples = static_cast<std::uint32_t>(s.places.count);
+  report.feature_samples = 0;
+  for (std::uint8_t h : s.samples.held) report.feature_samples += h;
+  report.seam_samples = s.plan.first_count - report.feature_samples - report.surface_samples;
 }
 
 Status step_diffuse(State& s, bool& done, std::uint64_t& units) {
@@ -163,7 +161,6 @@ Status step_diffuse(State& s, bool& done, std::uint64_t& units) {
   ISOLOD_TRY(s.arena->scratch(s.surface.mesh.face_count(), face_count));
   ISOLOD_TRY(diffuse(s.surface, s.backbones, s.lines, s.first_rates.surface, surface_samples, face_count, *s.arena));
   place_samples(s.surface, {s.atlas.faces, s.atlas.start}, face_count, s.chart_start, s.places);
-  count_samples(s);
   units = face_units(s) + surface_samples;
   done = true;
   return {};
@@ -206,6 +203,7 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
   done = true;
   ISOLOD_TRY(gather_samples(s.sampled(), s.samples, *s.arena));
+  count_samples(s);
   return sample_features_anew(s.surface, s.options.weight, s.samples, *s.arena);
 }
 

@@ -42,7 +42,6 @@ void close_stage(Remesher::State& s) {
   stage.hash = stage_entries[s.stage].hash(s);
   stage.seconds = before + now(s.hooks) - s.stage_start;
   stage.arena_bytes = s.arena->high_water();
-  s.report.arena_bytes = stage.arena_bytes > s.report.arena_bytes ? stage.arena_bytes : s.report.arena_bytes;
   s.arena->reset_high_water();
 }
 
@@ -80,10 +79,12 @@ Status Remesher::begin(const MeshView& view, const Options& options, const Hooks
 }
 
 Status Remesher::advance(std::uint64_t work) {
+  if (state_ == nullptr) return fail(Status::invalid_option);  // `begin` failed or was never called
   State& s = *state_;
   for (std::uint64_t spent = 0; spent <= work && !done() && s.report.status.is_ok();) {
     std::uint64_t units = 1;
     s.report.status = do_piece(s, units);
+    if (s.arena->high_water() > s.report.arena_bytes) s.report.arena_bytes = s.arena->high_water();
     spent += units;
     if (!s.report.status.is_ok() || s.hooks.progress == nullptr) continue;
     const char* name = done() ? "done" : stage_entries[s.stage].name;
@@ -95,7 +96,7 @@ Status Remesher::advance(std::uint64_t work) {
 
 bool Remesher::done() const { return state_ != nullptr && state_->stage == stage_entry_count; }
 
-ResultMesh Remesher::result() const { return {state_->positions, state_->triangles}; }
+ResultMesh Remesher::result() const { return done() ? ResultMesh{state_->positions, state_->triangles} : ResultMesh{}; }
 
 const Report& Remesher::report() const { return state_->report; }
 

@@ -92,37 +92,48 @@ class LocalDebts {
   Span<FaceId> queue_, seen_by_;
 };
 
-/// Faces breadth first, component after component, with the side towards the parent (none at a root).
+/// Faces depth first, component after component, with the side towards the parent (none at a root). Depth first, so that the tree is
+/// mostly one long way with short branches: breadth first, every branch would bring its rounding to the root.
 struct SpanningTree {
   Span<FaceId> order;
   Span<HalfedgeId> to_parent;
 };
 
-Status grow_tree(const Halfedges& mesh, SpanningTree& tree, Arena& arena) {
-  ISOLOD_TRY(arena.scratch(mesh.face_count(), tree.order));
-  ISOLOD_TRY(arena.scratch(mesh.face_count(), tree.to_parent));
-  const ScratchScope scope(arena);
-  Span<std::uint8_t> seen;
-  ISOLOD_TRY(arena.scratch(mesh.face_count(), seen));
-  for (std::uint8_t& s : seen) s = 0;
-  std::size_t head = 0, tail = 0;
-  for (FaceId root : Ids<FaceId>(mesh.face_count())) {
-    if (seen[root]) continue;
-    seen[root] = 1;
-    tree.to_parent[root] = none<HalfedgeId>();
-    tree.order[tail++] = root;
-    for (; head < tail; ++head) {
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const HalfedgeId t = mesh.twin[halfedge(tree.order[head], k)];
-        if (t.is_none() || seen[face(t)]) continue;
-        seen[face(t)] = 1;
-        tree.to_parent[face(t)] = t;
-        tree.order[tail++] = face(t);
+class TreeGrower {
+ public:
+  Status grow(const Halfedges& mesh, SpanningTree& tree, Arena& arena) {
+    ISOLOD_TRY(arena.scratch(mesh.face_count(), tree.order));
+    ISOLOD_TRY(arena.scratch(mesh.face_count(), tree.to_parent));
+    const ScratchScope scope(arena);
+    ISOLOD_TRY(arena.scratch(mesh.face_count(), seen_));
+    ISOLOD_TRY(arena.scratch(mesh.halfedge_count(), stack_));
+    for (std::uint8_t& s : seen_) s = 0;
+    for (FaceId root : Ids<FaceId>(mesh.face_count())) {
+      if (seen_[root]) continue;
+      visit(mesh, tree, root, none<HalfedgeId>());
+      while (height_ > 0) {
+        const HalfedgeId side = stack_[--height_];
+        if (!seen_[face(side)]) visit(mesh, tree, face(side), side);
       }
     }
+    return {};
   }
-  return {};
-}
+
+ private:
+  void visit(const Halfedges& mesh, SpanningTree& tree, FaceId f, HalfedgeId to_parent) {
+    seen_[f] = 1;
+    tree.order[visited_++] = f;
+    tree.to_parent[f] = to_parent;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const HalfedgeId t = mesh.twin[halfedge(f, k)];
+      if (!t.is_none() && !seen_[face(t)]) stack_[height_++] = t;
+    }
+  }
+
+  Span<std::uint8_t> seen_;
+  Span<HalfedgeId> stack_;  // sides by which faces still to visit can be entered: each halfedge at most once
+  std::size_t height_ = 0, visited_ = 0;
+};
 
 /// Turns real wishes into integers that sum to `total` exactly: each is the step of the rounded running sum.
 void fix_wishes(Span<const double> wish, std::uint32_t total, Span<FixedCount> fixed) {
@@ -153,7 +164,7 @@ void flow_to_roots(const Halfedges& mesh, const SpanningTree& tree, Span<FixedCo
       error[face(mesh.twin[up])] += rest;
     }
   }
-  // Only where the last root's own wish was negative is a debt left; the nearest faces in tree order pay it.
+  // Only where the last root's own wish was negative is a debt left; the first faces of the tree pay it.
   std::int64_t debt = round_count(-teleported);
   for (std::size_t i = 0; i < tree.order.count && debt > 0; ++i) {
     std::uint32_t& count = face_count[tree.order[i]];
@@ -171,7 +182,8 @@ Status diffuse(const Surface& surface, const Backbones& backbones, const LineSam
   SpanningTree tree;
   Span<double> wish;
   Span<FixedCount> fixed;
-  ISOLOD_TRY(grow_tree(surface.mesh, tree, arena));
+  TreeGrower grower;
+  ISOLOD_TRY(grower.grow(surface.mesh, tree, arena));
   ISOLOD_TRY(arena.scratch(face_count.count, wish));
   ISOLOD_TRY(arena.scratch(face_count.count, fixed));
   double density = 0, wished = 0;

@@ -77,7 +77,7 @@ void fill_curvature(Surface& surface, double gamma) {
 
 Status fill_given(Surface& surface) {
   const double* given = surface.view->vertex_density;
-  if (given == nullptr) return fail(Status::invalid_option);
+  if (given == nullptr) return fail(Status::invalid_option, Element::option, 3);  // Options::density
   double greatest = 0;
   for (std::uint32_t source : surface.source_vertex) {
     const double d = given[source];

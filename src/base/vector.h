@@ -6,6 +6,10 @@
 namespace isolod {
 inline namespace v1 {
 
+inline double smaller(double a, double b) { return b < a ? b : a; }
+inline double greater(double a, double b) { return a < b ? b : a; }
+inline double absolute(double a) { return a < 0 ? -a : a; }
+
 struct Vec3 {
   double x, y, z;
 };
@@ -19,6 +23,20 @@ inline double length(Vec3 a) { return square_root(dot(a, a)); }
 inline double distance(Vec3 a, Vec3 b) { return length(a - b); }
 inline Vec3 midpoint(Vec3 a, Vec3 b) { return 0.5 * (a + b); }
 
+/// Cosine and sine of an angle, times one positive number.
+struct Angle {
+  double cosine, sine;
+};
+
+/// The angle at p between a and b.
+inline Angle angle_at(Vec3 p, Vec3 a, Vec3 b) { return {dot(a - p, b - p), length(cross(a - p, b - p))}; }
+
+/// Whether two angles sum to more than two right angles, by more than rounding.
+inline bool sum_over_straight(const Angle& x, const Angle& y) {
+  const double scale = (absolute(x.cosine) + x.sine) * (absolute(y.cosine) + y.sine);
+  return x.sine * y.cosine + x.cosine * y.sine < -1e-12 * scale;
+}
+
 struct Vec2 {
   double x, y;
 };
@@ -30,10 +48,6 @@ inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
 inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 inline double length(Vec2 a) { return square_root(dot(a, a)); }
 inline double distance(Vec2 a, Vec2 b) { return length(a - b); }
-
-inline double smaller(double a, double b) { return b < a ? b : a; }
-inline double greater(double a, double b) { return a < b ? b : a; }
-inline double absolute(double a) { return a < 0 ? -a : a; }
 
 }  // namespace v1
 }  // namespace isolod

@@ -217,30 +217,15 @@ void Relaxation::flip_around(VertexId v, RelaxReport& report) {
   }
 }
 
-namespace {
-
-/// Cosine and sine of the angle at p between a and b, times one positive number.
-struct Angle {
-  double cosine, sine;
-};
-Angle angle_at(Vec3 p, Vec3 a, Vec3 b) { return {dot(a - p, b - p), length(cross(a - p, b - p))}; }
-
-/// The sine of the sum of two angles, which is negative where they sum to more than two right angles.
-double sine_of_sum(const Angle& x, const Angle& y) { return x.sine * y.cosine + x.cosine * y.sine; }
-
-}  // namespace
-
 /// Delaunay by angles, with the two faces unfolded about their edge.
 bool Relaxation::wants_flip_in_space(HalfedgeId h) const {
   const Halfedges& mesh = mesh_->mesh;
   const HalfedgeId g = mesh.twin[h];
   const auto at = [&](VertexId v) { return position_of(*surface_, samples_, sample(v)); };
   const Vec3 a = at(mesh.origin[h]), b = at(mesh.origin[g]), c = at(mesh.apex(h)), d = at(mesh.apex(g));
-  const Angle at_c = angle_at(c, a, b), at_d = angle_at(d, a, b);
-  const double scale = (absolute(at_c.cosine) + at_c.sine) * (absolute(at_d.cosine) + at_d.sine);
-  if (!(sine_of_sum(at_c, at_d) < -1e-9 * scale)) return false;
-  if (!(sine_of_sum(angle_at(a, b, c), angle_at(a, b, d)) > 0)) return false;
-  return sine_of_sum(angle_at(b, a, c), angle_at(b, a, d)) > 0 && can_flip(*mesh_, h);
+  const bool is_convex = !sum_over_straight(angle_at(a, b, c), angle_at(a, b, d)) &&
+                         !sum_over_straight(angle_at(b, a, c), angle_at(b, a, d));
+  return is_convex && sum_over_straight(angle_at(c, a, b), angle_at(d, a, b)) && can_flip(*mesh_, h);
 }
 
 /// Strips between two lines have no free sample to look after their edges.

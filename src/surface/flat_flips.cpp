@@ -21,18 +21,7 @@ bool is_flat(const Quad& q, double tolerance) {
          absolute(dot(q.c - q.a, other)) <= tolerance * length(other) && dot(normal, other) > 0;
 }
 
-/// Cosine and sine of an angle, times one positive number.
-struct Angle {
-  double cosine, sine;
-};
-Angle angle_at(Vec3 p, Vec3 a, Vec3 b) { return {dot(a - p, b - p), length(cross(a - p, b - p))}; }
-
-/// Whether the angles at c and d sum to more than two right angles, by more than rounding.
-bool is_not_delaunay(const Quad& q) {
-  const Angle c = angle_at(q.c, q.a, q.b), d = angle_at(q.d, q.a, q.b);
-  const double scale = (absolute(c.cosine) + c.sine) * (absolute(d.cosine) + d.sine);
-  return c.sine * d.cosine + c.cosine * d.sine < -1e-12 * scale;
-}
+bool is_not_delaunay(const Quad& q) { return sum_over_straight(angle_at(q.c, q.a, q.b), angle_at(q.d, q.a, q.b)); }
 
 /// Whether both triangles of the other diagonal have area on the same side; the smaller height may not shrink below rounding.
 bool is_convex(const Quad& q, double tolerance) {

@@ -23,8 +23,8 @@ double face_mean_density(const Surface& surface, FaceId f) {
 
 Status DualDistance::begin(const Surface& surface, double line_rate, Lines lines, Arena& arena) {
   surface_ = &surface;
-  line_rate_ = line_rate;
-  lines_ = lines;
+  ISOLOD_TRY(arena.scratch(surface.mesh.halfedge_count(), cost_));
+  ISOLOD_TRY(fill_costs(surface, line_rate, lines, arena));
   ISOLOD_TRY(heap_.begin(surface.mesh.face_count(), arena));
   ISOLOD_TRY(arena.scratch(surface.mesh.face_count(), distance_));
   ISOLOD_TRY(arena.scratch(surface.mesh.face_count(), label_));
@@ -40,17 +40,21 @@ void DualDistance::clear(Span<const FaceId> faces) {
   for (FaceId f : faces) distance_[f] = unreached;
 }
 
-bool DualDistance::is_barred(HalfedgeId h) const {
-  if (surface_->mesh.is_boundary(h)) return true;
-  return lines_ == Lines::barriers && (surface_->line[h] & line_feature) != 0;
-}
-
-double DualDistance::step_cost(HalfedgeId h) const {
-  const FaceId f = face(h), g = face(surface_->mesh.twin[h]);
-  const double density = 0.5 * (face_mean_density(*surface_, f) + face_mean_density(*surface_, g));
-  const double way = isolod::distance(face_centre(*surface_, f), face_centre(*surface_, g));
-  const double crossing = (surface_->line[h] & line_feature) == 0 ? 0 : line_crossing_cost;
-  return least_step + way * line_rate_ * square_root(density) + crossing;
+Status DualDistance::fill_costs(const Surface& surface, double line_rate, Lines lines, Arena& arena) {
+  const ScratchScope scope(arena);
+  Span<Vec3> centre;
+  ISOLOD_TRY(arena.scratch(surface.mesh.face_count(), centre));
+  for (FaceId f : Ids<FaceId>(centre.count)) centre[f] = face_centre(surface, f);
+  for (HalfedgeId h : Ids<HalfedgeId>(cost_.count)) {
+    const bool is_line = (surface.line[h] & line_feature) != 0;
+    cost_[h] = barred;
+    if (surface.mesh.is_boundary(h) || (is_line && lines == Lines::barriers)) continue;
+    const FaceId f = face(h), g = face(surface.mesh.twin[h]);
+    const double density = 0.5 * (face_mean_density(surface, f) + face_mean_density(surface, g));
+    const double way = isolod::distance(centre[f], centre[g]) * line_rate * square_root(density);
+    cost_[h] = static_cast<float>(least_step + way + (is_line ? line_crossing_cost : 0));
+  }
+  return {};
 }
 
 void DualDistance::spread(FaceId seed, std::uint32_t label, Span<const std::uint32_t> region) {
@@ -62,10 +66,10 @@ void DualDistance::spread(FaceId seed, std::uint32_t label, Span<const std::uint
     const FaceId f{entry.element};
     for (std::uint32_t k = 0; k < 3; ++k) {
       const HalfedgeId h = halfedge(f, k);
-      if (is_barred(h)) continue;
+      if (!(cost_[h] < barred)) continue;
       const FaceId g = face(surface_->mesh.twin[h]);
       if (!region.empty() && region[g] != region[seed]) continue;
-      const double d = entry.key + step_cost(h);
+      const double d = entry.key + static_cast<double>(cost_[h]);
       // At a tie the new label wins: a face whose way leads over one that has just changed hands must follow it, also where
       // rounding has made its own distance no smaller, or its region would be torn.
       if (!(d < distance_[g]) && !(d == distance_[g] && label_[g] != label)) continue;
@@ -87,9 +91,9 @@ void DualDistance::grow(Span<const FaceId> core, double limit, Span<FaceId>& rea
     const IndexedHeap::Entry entry = heap_.pop();
     for (std::uint32_t k = 0; k < 3; ++k) {
       const HalfedgeId h = halfedge(FaceId{entry.element}, k);
-      if (is_barred(h)) continue;
+      if (!(cost_[h] < barred)) continue;
       const FaceId g = face(surface_->mesh.twin[h]);
-      const double d = entry.key + step_cost(h);
+      const double d = entry.key + static_cast<double>(cost_[h]);
       if (!(d < distance_[g]) || d > limit) continue;
       if (distance_[g] == unreached) reached[count++] = g;
       distance_[g] = d;

@@ -22,7 +22,6 @@ VertexId vertex(SampleId s) { return {s.value}; }
 /// A free sample and its neighbours in the plane, counterclockwise.
 struct Relaxation::Ring {
   std::uint32_t count = 0;
-  FrameGround::LocalPlace place;
   Vec2 centre;
   double weight = 0;
   Vec2 point[most_neighbours];
@@ -59,6 +58,9 @@ Status Relaxation::begin(const Surface& surface, const Frames& frames, Triangula
   ISOLOD_TRY(arena.scratch(free_count, resident_));
   ISOLOD_TRY(arena.scratch(samples.held.count, target_));
   ISOLOD_TRY(arena.scratch(samples.held.count, has_target_));
+  ISOLOD_TRY(arena.scratch(samples.held.count, sight_));
+  for (Sight& sight : sight_) sight.when = 0;
+  look_ = 0;
   ISOLOD_TRY(arena.scratch(samples.held.count, guest_));
   for (std::uint8_t& g : guest_) g = 0;
   std::size_t i = 0;
@@ -83,25 +85,39 @@ void Relaxation::assign_homes() {
   counting_sort<SampleId>(free_, resident_, start_, [&](SampleId s) { return home(s); });
 }
 
+void Relaxation::look_anew(std::uint32_t frame) {
+  ground_.select(frame);
+  ++look_;
+}
+
+const Relaxation::Sight& Relaxation::look_at(VertexId v) const {
+  Sight& sight = sight_[v];
+  if (sight.when == look_) return sight;
+  const FrameGround::LocalPlace place = ground_.find(samples_, sample(v));
+  sight.when = look_;
+  sight.is_there = !place.is_none();
+  if (!sight.is_there) return sight;
+  const double density = ground_.density(place);
+  sight.uv = ground_.uv(place);
+  sight.weight = options_.weight == LloydWeight::equal ? density * density : density;
+  return sight;
+}
+
 /// False where the star reaches out of the selected frame.
-bool Relaxation::gather(VertexId v, bool with_weights, Ring& ring) const {
+bool Relaxation::gather(VertexId v, Ring& ring) const {
   const Halfedges& mesh = mesh_->mesh;
-  const auto weigh = [&](const FrameGround::LocalPlace& place) {
-    const double d = ground_.density(place);
-    return options_.weight == LloydWeight::equal ? d * d : d;
-  };
-  ring.place = ground_.find(samples_, sample(v));
-  if (ring.place.is_none()) return false;
-  ring.centre = ground_.uv(ring.place);
-  if (with_weights) ring.weight = weigh(ring.place);
+  const Sight& own = look_at(v);
+  if (!own.is_there) return false;
+  ring.centre = own.uv;
+  ring.weight = own.weight;
   ring.count = 0;
   const HalfedgeId first = mesh.outgoing[v];
   HalfedgeId h = first;
   do {
-    const FrameGround::LocalPlace place = ground_.find(samples_, sample(mesh.target(h)));
-    if (place.is_none() || ring.count == most_neighbours) return false;
-    ring.point[ring.count] = ground_.uv(place);
-    if (with_weights) ring.point_weight[ring.count] = weigh(place);
+    const Sight& other = look_at(mesh.target(h));
+    if (!other.is_there || ring.count == most_neighbours) return false;
+    ring.point[ring.count] = other.uv;
+    ring.point_weight[ring.count] = other.weight;
     ring.line_after[ring.count++] = mesh_->is_fixed(next(h));
     h = mesh.turn_left(h);
   } while (!h.is_none() && h != first);
@@ -111,7 +127,7 @@ bool Relaxation::gather(VertexId v, bool with_weights, Ring& ring) const {
 /// The over-relaxed step to the centroid of the cell, cut by the lines of the star.
 bool Relaxation::find_target(VertexId v) {
   Ring ring;
-  if (!gather(v, true, ring)) return false;
+  if (!gather(v, ring)) return false;
   WeightedPolygon cell;
   for (std::uint32_t i = 0; i < ring.count; ++i) {
     const double weight = (ring.weight + ring.point_weight[i] + ring.following_weight(i)) / 3;
@@ -132,16 +148,17 @@ bool Relaxation::find_target(VertexId v) {
 
 void Relaxation::move(VertexId v, RelaxReport& report) {
   Ring ring;
-  if (!gather(v, false, ring)) return;
+  if (!gather(v, ring)) return;
   const std::uint32_t positive = ring.positive_faces(ring.centre);
   for (std::uint32_t halving = 0; halving <= most_halvings; ++halving) {
     if (halving == 1) ++report.shortened;
     const Vec2 target = target_[v];
     target_[v] = 0.5 * (ring.centre + target);
     if (ring.positive_faces(target) < positive) continue;
-    const FrameGround::LocalPlace place = ground_.walk(ring.place.face, target);
+    const FrameGround::LocalPlace place = ground_.walk(samples_.place[sample(v)].face, target);
     if (place.is_none()) continue;
     samples_.place[sample(v)] = {place.face, place.w[1], place.w[2]};
+    sight_[v].when = 0;
     ++report.moved;
     return;
   }
@@ -172,22 +189,20 @@ void Relaxation::move_in_space(VertexId v) {
   SurfacePlace& place = samples_.place[sample(v)];
   const SurfacePlace there = descend(*surface_, place.face, 0.5 * (here + (1 / count) * sum));
   const double before = worst_turn(here, area_vector(*surface_, place.face));
-  if (worst_turn(position_of(*surface_, there), area_vector(*surface_, there.face)) >= before) place = there;
-}
-
-bool Relaxation::point_of(VertexId v, Vec2& point) const {
-  const FrameGround::LocalPlace place = ground_.find(samples_, sample(v));
-  if (place.is_none()) return false;
-  point = ground_.uv(place);
-  return true;
+  if (worst_turn(position_of(*surface_, there), area_vector(*surface_, there.face)) < before) return;
+  place = there;
+  sight_[v].when = 0;
 }
 
 bool Relaxation::wants_flip(HalfedgeId h) const {
   const Halfedges& mesh = mesh_->mesh;
   const HalfedgeId g = mesh.twin[h];
-  Vec2 a, b, c, d;
-  if (!point_of(mesh.origin[h], a) || !point_of(mesh.origin[g], b)) return false;
-  if (!point_of(mesh.apex(h), c) || !point_of(mesh.apex(g), d)) return false;
+  const Sight& at_a = look_at(mesh.origin[h]);
+  const Sight& at_b = look_at(mesh.origin[g]);
+  const Sight& at_c = look_at(mesh.apex(h));
+  const Sight& at_d = look_at(mesh.apex(g));
+  if (!at_a.is_there || !at_b.is_there || !at_c.is_there || !at_d.is_there) return false;
+  const Vec2 a = at_a.uv, b = at_b.uv, c = at_c.uv, d = at_d.uv;
   if (!(orient2d(d, b, c) > 0) || !(orient2d(c, a, d) > 0)) return false;
   const bool inverted = !(orient2d(a, b, c) > 0) || !(orient2d(b, a, d) > 0);
   return (inverted || in_circle(a, b, c, d) > 0) && can_flip(*mesh_, h);
@@ -247,7 +262,7 @@ RelaxReport Relaxation::iterate() {
   RelaxReport report;
   assign_homes();
   for (std::uint32_t frame = 0; frame < frames_->frame.count; ++frame) {
-    ground_.select(frame);
+    look_anew(frame);
     for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
       const SampleId s = resident_[i];
       has_target_[s] = find_target(vertex(s));
@@ -257,7 +272,7 @@ RelaxReport Relaxation::iterate() {
     }
   }
   for (std::uint32_t frame = 0; frame < frames_->frame.count; ++frame) {
-    ground_.select(frame);
+    look_anew(frame);
     for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
       if (has_target_[resident_[i]]) {
         move(vertex(resident_[i]), report);

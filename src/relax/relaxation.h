@@ -28,7 +28,7 @@ struct RelaxReport {
 
 class Relaxation {
  public:
-  /// 28 bytes a sample and 4 a face of the surface of scratch stay with the caller's scope.
+  /// 60 bytes a sample and 4 a face of the surface of scratch stay with the caller's scope.
   Status begin(const Surface& surface, const Frames& frames, Triangulation& mesh, const Samples& samples,
                const RelaxOptions& options, Arena& arena);
 
@@ -38,7 +38,7 @@ class Relaxation {
   struct Ring;
   void assign_homes();
   std::uint32_t home(SampleId s) const;
-  bool gather(VertexId v, bool with_weights, Ring& ring) const;
+  bool gather(VertexId v, Ring& ring) const;
   bool find_target(VertexId v);
   void move(VertexId v, RelaxReport& report);
   void move_in_space(VertexId v);
@@ -46,7 +46,15 @@ class Relaxation {
   void flip_between_lines(RelaxReport& report);
   bool wants_flip_in_space(HalfedgeId h) const;
   bool wants_flip(HalfedgeId h) const;
-  bool point_of(VertexId v, Vec2& point) const;
+  /// Where a sample is in the selected frame, looked up once a frame and kept until the sample moves.
+  struct Sight {
+    Vec2 uv;
+    double weight;       ///< of the corrected density
+    std::uint32_t when;  ///< the number of the look
+    bool is_there;
+  };
+  const Sight& look_at(VertexId v) const;
+  void look_anew(std::uint32_t frame);
 
   const Surface* surface_ = nullptr;
   const Frames* frames_ = nullptr;
@@ -57,6 +65,8 @@ class Relaxation {
   Span<std::uint32_t> start_;    // per frame, one more: its part of `resident_`
   Span<SampleId> free_, resident_;
   Span<Vec2> target_;
+  Span<Sight> sight_;            // per sample
+  std::uint32_t look_ = 0;
   Span<std::uint8_t> has_target_;
   Span<std::uint8_t> guest_;     // per sample: 0 at home in its core's frame, k in that of its k-th neighbour
 };

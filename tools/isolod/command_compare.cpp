@@ -17,6 +17,7 @@ struct Comparison {
   measure::Distances distances;
   measure::LineReport lines;
   measure::Crossings original_crossings, result_crossings;
+  measure::CrossingKinds kinds;
   bool has_density = false;
   measure::DensityFit density;
 };
@@ -36,6 +37,7 @@ Comparison compare(const InputMesh& original, const InputMesh& result, const Arg
   comparison.lines = measure::line_report(a, b, sharp);
   comparison.original_crossings = measure::crossings(a);
   comparison.result_crossings = measure::crossings(b);
+  comparison.kinds = measure::crossing_kinds(a, b, comparison.result_crossings);
   if (arguments.has("--density")) {
     const std::vector<double> wished = read_density_file(arguments.required_text("--density"), a.vertex_count);
     comparison.has_density = true;
@@ -57,6 +59,44 @@ void add_lines(JsonWriter& json, const measure::LineReport& lines) {
   json.add("corner_max_pct", lines.corner_distance);
 }
 
+const char* name_of(measure::CrossingKind kind) {
+  switch (kind) {
+    case measure::CrossingKind::folded:
+      return "folded";
+    case measure::CrossingKind::between_sheets:
+      return "between sheets";
+    default:
+      return "elsewhere";
+  }
+}
+
+void add_crossings(JsonWriter& json, const Comparison& comparison, bool each) {
+  const measure::CrossingKinds& kinds = comparison.kinds;
+  json.add("crossings_original", static_cast<std::uint64_t>(comparison.original_crossings.apart));
+  json.add("crossings_remeshed", static_cast<std::uint64_t>(comparison.result_crossings.apart));
+  json.add("crossings_at_vertex_original", static_cast<std::uint64_t>(comparison.original_crossings.at_vertex));
+  json.add("crossings_at_vertex_remeshed", static_cast<std::uint64_t>(comparison.result_crossings.at_vertex));
+  json.add("crossing_pairs_folded", static_cast<std::uint64_t>(kinds.folded));
+  json.add("crossing_pairs_between_sheets", static_cast<std::uint64_t>(kinds.between_sheets));
+  json.add("crossing_pairs_elsewhere", static_cast<std::uint64_t>(kinds.elsewhere));
+  if (!each) return;
+  json.open_array("crossing_pairs");
+  for (const measure::CrossingPair& pair : kinds.pairs) {
+    json.open_object(nullptr);
+    json.add("kind", name_of(pair.kind));
+    json.add("first_triangle", static_cast<std::uint64_t>(pair.first));
+    json.add("second_triangle", static_cast<std::uint64_t>(pair.second));
+    json.add("x", pair.place[0]);
+    json.add("y", pair.place[1]);
+    json.add("z", pair.place[2]);
+    json.add("spacing", pair.spacing);
+    json.add("along_spacings", pair.along);
+    json.add("sheets_spacings", pair.sheets);
+    json.close_object();
+  }
+  json.close_array();
+}
+
 void print_json(const Arguments& arguments, const Comparison& comparison) {
   JsonWriter json;
   json.add("original_file", arguments.operand(0));
@@ -75,8 +115,7 @@ void print_json(const Arguments& arguments, const Comparison& comparison) {
   json.add("flipped_triangles", static_cast<std::uint64_t>(distances.flipped));
   json.add("flipped_triangles_robust", static_cast<std::uint64_t>(distances.flipped_robust));
   add_lines(json, comparison.lines);
-  json.add("crossings_original", static_cast<std::uint64_t>(comparison.original_crossings.apart));
-  json.add("crossings_remeshed", static_cast<std::uint64_t>(comparison.result_crossings.apart));
+  add_crossings(json, comparison, arguments.has("--crossings"));
   if (comparison.has_density) {
     json.add("density_spearman", comparison.density.spearman);
     json.add("density_slope", comparison.density.slope);
@@ -105,6 +144,17 @@ void print_surfaces(const Comparison& comparison) {
   std::printf("cell area, variation  %14.3f %14.3f\n", p.cell_variation, q.cell_variation);
   std::printf("crossing pairs        %14zu %14zu\n", comparison.original_crossings.apart,
               comparison.result_crossings.apart);
+  std::printf("  folded              %14s %14zu\n", "", comparison.kinds.folded);
+  std::printf("  between sheets      %14s %14zu\n", "", comparison.kinds.between_sheets);
+  std::printf("  elsewhere           %14s %14zu\n", "", comparison.kinds.elsewhere);
+}
+
+void print_pairs(const measure::CrossingKinds& kinds) {
+  std::printf("\ncrossing pairs: triangles, place, distances along the result and between sheets in spacings\n");
+  for (const measure::CrossingPair& p : kinds.pairs) {
+    std::printf("%-14s %7u %7u  %.6g %.6g %.6g  %.3g %.3g\n", name_of(p.kind), p.first, p.second, p.place[0],
+                p.place[1], p.place[2], p.along, p.sheets);
+  }
 }
 
 void print_fit(const Comparison& comparison) {
@@ -133,7 +183,8 @@ const CommandRule& compare_rule() {
       "ORIGINAL REMESHED",
       2,
       "Measures how well a remeshed surface stands for its original: quality, distance, lines, flips, crossings.",
-      {{"--features", "DEG", "edges sharper than this angle count as sharp; 40"},
+      {{"--crossings", nullptr, "list every pair of triangles that cross"},
+       {"--features", "DEG", "edges sharper than this angle count as sharp; 40"},
        {"--density", "FILE", "wished density, one number for each vertex of the original"},
        {"--samples", "N", "points on each surface to measure distances from; 500000"},
        {"--json", nullptr, "as JSON"}}};
@@ -149,6 +200,7 @@ int command_compare(const Arguments& arguments) {
   } else {
     print_surfaces(comparison);
     print_fit(comparison);
+    if (arguments.has("--crossings")) print_pairs(comparison.kinds);
   }
   return exit_ok;
 }

@@ -78,12 +78,39 @@ double triangle_quality(const double* a, const double* b, const double* c);
 // ---- measure_crossings.cpp
 
 struct Crossings {
-  std::size_t apart = 0;      ///< pairs that cross and share no vertex
-  std::size_t at_vertex = 0;  ///< pairs that share one vertex and cross somewhere else
+  std::size_t apart = 0;                              ///< pairs that cross and share no vertex
+  std::size_t at_vertex = 0;                          ///< pairs that share one vertex and cross somewhere else
+  std::vector<std::array<std::uint32_t, 2>> pairs{};  ///< those apart, the lower triangle first, in order
 };
 
 /// Pairs of triangles where an edge of the one passes through the other. Touching is not crossing.
 Crossings crossings(const Surface& surface);
+
+// ---- measure_sheets.cpp
+
+enum class CrossingKind {
+  folded,          ///< nearer than four spacings along the result: a fold of one sheet
+  between_sheets,  ///< else, where sheets of the original lie nearer to each other than three spacings
+  elsewhere        ///< else: parts that were well apart
+};
+
+struct CrossingPair {
+  std::uint32_t first = 0, second = 0;  ///< triangles of the result
+  CrossingKind kind = CrossingKind::elsewhere;
+  std::array<double, 3> place{};  ///< between their centroids
+  double spacing = 0;             ///< mean length of the edges that meet their corners
+  double along = 0;               ///< distance over the result in spacings; infinite where it is much longer than four
+  double sheets = 0;  ///< distance of the original's sheets there in spacings; infinite where it is not under three
+};
+
+struct CrossingKinds {
+  std::size_t folded = 0, between_sheets = 0, elsewhere = 0;
+  std::vector<CrossingPair> pairs{};  ///< in the order of the crossings
+};
+
+/// What each pair of the result's crossings is. Two sheets lie at a place where a point of the original within three
+/// spacings is farther along the surface than four spacings and than three times the straight way.
+CrossingKinds crossing_kinds(const Surface& original, const Surface& result, const Crossings& of_result);
 
 // ---- measure_distance.cpp
 

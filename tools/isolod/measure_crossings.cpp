@@ -54,6 +54,7 @@ void count_pair(const Surface& s, std::size_t i, std::size_t j, Crossings& resul
   const Corners ci = corners(s, i), cj = corners(s, j);
   if (!edges_cross(ci, of_i, cj) && !edges_cross(cj, of_j, ci)) return;
   ++(shared == 0 ? result.apart : result.at_vertex);
+  if (shared == 0) result.pairs.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
 }
 
 }  // namespace
@@ -68,6 +69,7 @@ Crossings crossings(const Surface& s) {
       if (j > i) count_pair(s, i, j, result);
     });
   }
+  std::sort(result.pairs.begin(), result.pairs.end());
   return result;
 }
 

@@ -347,6 +347,103 @@ TEST_CASE("checker: triangles that cross beside a shared vertex are counted apar
   CHECK(c.at_vertex == 1);
 }
 
+namespace {
+
+measure::CrossingKinds kinds_of(const shapes::Shape& original, const shapes::Shape& result) {
+  const measure::Crossings crossings = measure::crossings(surface_of(result));
+  CHECK(crossings.pairs.size() == crossings.apart);
+  return measure::crossing_kinds(surface_of(original), surface_of(result), crossings);
+}
+
+/// Two unit spheres whose surfaces are this far apart, or this deep in one another; an edge is about 0.075 long.
+shapes::Shape spheres(double gap) {
+  shapes::Shape both = made("sphere", 5120), other = both;
+  move(other, {2 + gap, 0.013, 0.007});
+  append(both, other);
+  return both;
+}
+
+/// A square grid over the unit square, with edges of a 40th; in half its height a pleat of this width lies over.
+shapes::Shape pleated(double width) {
+  shapes::Shape shape;
+  const std::uint32_t n = 40;
+  for (std::uint32_t i = 0; i <= n; ++i) {
+    for (std::uint32_t j = 0; j <= n; ++j) {
+      // The rows turn back over some steps, and stand oblique so that there the sheets cross.
+      const double x = double(j) / n, y = double(i) / n, back = i > 20 && i < 23 && j > 10 && j < 30 ? width : 0;
+      shape.positions.insert(shape.positions.end(), {x, y - back, back * (x - 0.52)});
+      if (i == n || j == n) continue;
+      const std::uint32_t a = i * (n + 1) + j, b = a + 1, c = b + n + 1, d = a + n + 1;
+      shape.triangles.insert(shape.triangles.end(), {a, b, d, b, c, d});
+    }
+  }
+  return shape;
+}
+
+/// Two square grids joined at one side, this far apart at the other: a wedge, open at the ends.
+shapes::Shape wedge(double opening, std::uint32_t n) {
+  shapes::Shape shape;
+  for (std::uint32_t i = 0; i <= 2 * n; ++i) {
+    for (std::uint32_t j = 0; j <= n; ++j) {
+      const double x = std::fabs(double(i) / n - 1);
+      shape.positions.insert(shape.positions.end(), {x, double(j) / n, (i < n ? -0.5 : 0.5) * opening * x});
+      if (i == 2 * n || j == n) continue;
+      const std::uint32_t a = i * (n + 1) + j, b = a + 1, c = b + n + 1, d = a + n + 1;
+      shape.triangles.insert(shape.triangles.end(), {a, b, d, b, c, d});
+    }
+  }
+  return shape;
+}
+
+}  // namespace
+
+TEST_CASE("checker: crossings of a pleat are folds, whatever the original") {
+  const shapes::Shape flat = pleated(0), folded = pleated(0.08);
+  CHECK(kinds_of(flat, flat).pairs.empty());
+  for (const shapes::Shape& original : {flat, folded}) {
+    const measure::CrossingKinds kinds = kinds_of(original, folded);
+    CHECK(kinds.folded > 5);
+    CHECK(kinds.between_sheets == 0);
+    CHECK(kinds.elsewhere == 0);
+    for (const measure::CrossingPair& pair : kinds.pairs) {
+      CHECK(pair.along < 4);
+      CHECK(pair.first < pair.second);
+      CHECK(pair.place[1] == doctest::Approx(0.5).epsilon(0.2));
+    }
+  }
+}
+
+TEST_CASE("checker: crossings of two spheres are between sheets where the original's lie near") {
+  const shapes::Shape crossing = spheres(-0.02);
+  for (double gap : {-0.02, 0.03, 0.1, 0.5}) {
+    const measure::CrossingKinds kinds = kinds_of(spheres(gap), crossing);
+    CHECK(kinds.pairs.size() > 10);
+    CHECK(kinds.folded == 0);
+    CHECK((gap < 0.2 ? kinds.elsewhere : kinds.between_sheets) == 0);
+    for (const measure::CrossingPair& pair : kinds.pairs) {
+      CHECK(std::isinf(pair.along));
+      CHECK(pair.spacing == doctest::Approx(0.07).epsilon(0.2));
+      if (gap == 0.1) CHECK(pair.sheets * pair.spacing == doctest::Approx(0.12).epsilon(0.2));
+    }
+  }
+}
+
+TEST_CASE("checker: crossings in a wedge are between sheets only where it is narrow, and however coarse it is") {
+  for (std::uint32_t n : {1u, 3u, 60u}) {
+    for (double opening : {0.05, 0.4}) {
+      // The two sides change places beyond half the length.
+      shapes::Shape result = wedge(opening, 20);
+      for (std::size_t i = 0; i < result.positions.size(); i += 3) {
+        result.positions[i + 2] *= result.positions[i] > 0.52 ? -0.3 : 1;
+      }
+      const measure::CrossingKinds kinds = kinds_of(wedge(opening, n), result);
+      CHECK(kinds.pairs.size() > 10);
+      CHECK(kinds.folded == 0);
+      CHECK((opening < 0.1 ? kinds.elsewhere : kinds.between_sheets) == 0);
+    }
+  }
+}
+
 TEST_CASE("checker: lines that a result keeps, bends or loses") {
   const shapes::Shape fine = made("bracket", 20000), coarse = made("bracket", 3000);
   const measure::LineReport kept = measure::line_report(surface_of(fine), surface_of(coarse));

@@ -66,7 +66,8 @@ std::vector<double> naive_distances(const Surface& surface, FaceId seed, double 
       const bool line = (surface.line[h] & line_feature) != 0;
       if (line && barriers) continue;
       const FaceId f = face(h), g = face(mesh.twin[h]);
-      const double step = least_step + line_rate * distance(centre(f), centre(g)) + (line ? line_crossing_cost : 0);
+      const double exact = least_step + line_rate * distance(centre(f), centre(g)) + (line ? line_crossing_cost : 0);
+      const double step = static_cast<double>(static_cast<float>(exact));  // steps are kept as floats
       if (far[f.value] + step < far[g.value] * (1 - 1e-12)) far[g.value] = far[f.value] + step, changed = true;
     }
   }

@@ -177,16 +177,26 @@ def measure(args, judge, case, found, known):
         run = subprocess.run(command, capture_output=True, text=True)
         found["own"] = json.loads(run.stdout) if run.returncode == 0 else {}
         found.setdefault("judged", found["own"])
-    if "crossings" not in case.bars:
-        return
+    if "crossings" in case.bars:
+        measure_crossings(args, judge, case, found, known)
+
+
+def measure_crossings(args, judge, case, found, known):
+    """How many pairs cross, by the independent program, and what they are, by compare."""
+    pair = [str(case.original), str(found["file"])]
     if judge:
         count = lambda path: int(subprocess.run([judge["intersections"], path], capture_output=True, text=True).stdout)
         if case.model not in known:
-            known[case.model] = count(str(case.original))
+            known[case.model] = count(pair[0])
         found["crossings"] = (known[case.model], count(pair[1]))
-    else:
-        compared = found["own"].get("compare", {})
-        found["crossings"] = (compared.get("crossings_original"), compared.get("crossings_remeshed"))
+        if found["crossings"][1] == 0:
+            return
+    if "own" not in found:
+        run = subprocess.run([args.isolod, "compare", *pair, "--samples", "1000", "--json"], capture_output=True, text=True)
+        found["own"] = json.loads(run.stdout) if run.returncode == 0 else {}
+    found["kinds"] = found["own"].get("compare", {})
+    if not judge:
+        found["crossings"] = (found["kinds"].get("crossings_original", 0), found["kinds"].get("crossings_remeshed", 0))
 
 
 def run_case(args, judge, case, out, known):

@@ -46,7 +46,7 @@ class DualDistance {
   Status fill_costs(const Surface& surface, double line_rate, Lines lines, Arena& arena);
 
   const Surface* surface_ = nullptr;
-  Span<float> cost_;  // per halfedge: of the step over it
+  Span<float> cost_;  // per halfedge: of the step over it, rounded
   IndexedHeap heap_;
   Span<double> distance_;
   Span<std::uint32_t> label_;

@@ -124,18 +124,32 @@ Status run(const MeshView& view, const Options& options, const Hooks& hooks, Rem
   return remesher.advance(UINT64_MAX - 1);
 }
 
-/// The charts, and with them what they need at least, change with the budget, so the number that a status names is tried out.
-std::uint64_t number_that_works(const MeshView& view, Options options, std::uint64_t named, Arena& arena) {
-  constexpr std::uint32_t most_tries = 16;
+/// Whether a run with this many vertices succeeds; what it took is given back.
+Status try_count(const MeshView& view, Options options, std::uint64_t count, Arena& arena) {
   const ArenaMark mark = arena.mark();
-  for (std::uint32_t i = 0; i < most_tries && named < (UINT32_MAX >> 3); ++i) {
-    options.vertex_count = static_cast<std::uint32_t>(named);
-    Remesher remesher;
-    const Status status = run(view, options, {}, remesher, arena);
-    arena.rewind_results(mark);
-    arena.rewind_scratch(mark);
-    if (status.is_ok() || status == Status::out_of_memory) break;
+  options.vertex_count = static_cast<std::uint32_t>(count);
+  Remesher remesher;
+  const Status status = run(view, options, {}, remesher, arena);
+  arena.rewind_results(mark);
+  arena.rewind_scratch(mark);
+  return status;
+}
+
+/// The charts, and with them what they need at least, change with the budget, so what a status names is tried out: a number that
+/// works while one less does not.
+std::uint64_t number_that_works(const MeshView& view, const Options& options, std::uint64_t named, Arena& arena) {
+  constexpr std::uint32_t most_tries = 16;
+  std::uint64_t too_small = options.vertex_count;
+  for (std::uint32_t i = 0; i < most_tries; ++i) {
+    const Status status = try_count(view, options, named, arena);
+    if (status == Status::out_of_memory || named > (UINT32_MAX >> 4)) return named;
+    if (status.is_ok()) break;
+    too_small = named;
     named = status == Status::budget_too_small && status.value > named ? status.value : named + named / 4 + 1;
+  }
+  while (named - too_small > 1) {
+    const std::uint64_t middle = too_small + (named - too_small) / 2;
+    (try_count(view, options, middle, arena).is_ok() ? named : too_small) = middle;
   }
   return named;
 }

@@ -57,3 +57,4 @@
 #include "pipeline/levels.cpp"
 #include "pipeline/make_atlas.cpp"
 #include "pipeline/remesher.cpp"
+#include "pipeline/stage_hashes.cpp"

@@ -17,6 +17,19 @@ struct Vec2f {
 };
 
 inline Vec2 widen(Vec2f p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
+inline Vec2 widen(Vec2 p) { return p; }
+
+/// Paper, section 4.4: the stretch of a local vertex is the area of its faces over their area in the plane.
+template <class Point>
+double vertex_stretch(const Surface& surface, const Chart& chart, Span<Point> uv, VertexId v) {
+  double area = 0, image = 0;
+  const Vec2 p = widen(uv[v]);
+  visit_outgoing(chart.mesh, v, [&](HalfedgeId h) {
+    area += face_area(surface, chart.faces[face(h)]);
+    image += 0.5 * cross(widen(uv[chart.mesh.target(h)]) - p, widen(uv[chart.mesh.apex(h)]) - p);
+  });
+  return area / image;
+}
 
 struct FlattenOptions {
   double greatest_stretch_range = 40;

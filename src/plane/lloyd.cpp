@@ -25,17 +25,12 @@ Status Lloyd::begin(const Surface& surface, const FlatChart& flat, ChartSites& s
   return {};
 }
 
-/// Paper, section 4.4: the stretch of a vertex is the area of its faces over their area in the plane.
 void Lloyd::fill_weights(const Surface& surface, LloydWeight kind) {
   const Halfedges& mesh = flat_->chart.mesh;
   for (VertexId v : Ids<VertexId>(mesh.vertex_count())) {
-    double area = 0, area_uv = 0;
+    const double stretch = vertex_stretch(surface, flat_->chart, flat_->uv, v);
     visit_outgoing(mesh, v, [&](HalfedgeId h) {
-      area += face_area(surface, flat_->chart.faces[face(h)]);
-      area_uv += 0.5 * cross(flat_->uv[mesh.target(h)] - flat_->uv[v], flat_->uv[mesh.apex(h)] - flat_->uv[v]);
-    });
-    visit_outgoing(mesh, v, [&](HalfedgeId h) {
-      const double density = area / area_uv * surface.density(flat_->chart.on_surface(h));
+      const double density = stretch * surface.density(flat_->chart.on_surface(h));
       corner_weight_[h] = kind == LloydWeight::equal ? density * density : density;
     });
   }

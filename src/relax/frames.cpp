@@ -37,17 +37,6 @@ Status MakeFrames::begin(const Surface& surface, const FrameOptions& options, Ar
   return distances_.begin(surface, options.line_rate, Lines::barriers, arena);
 }
 
-/// Paper, section 4.4: the stretch of a vertex is the area of its faces over their area in the plane.
-static float vertex_stretch(const Surface& surface, const Chart& chart, Span<const Vec2f> uv, VertexId v) {
-  double area = 0, image = 0;
-  visit_outgoing(chart.mesh, v, [&](HalfedgeId h) {
-    const Vec2 p = widen(uv[v]);
-    area += face_area(surface, chart.faces[face(h)]);
-    image += 0.5 * cross(widen(uv[chart.mesh.target(h)]) - p, widen(uv[chart.mesh.apex(h)]) - p);
-  });
-  return static_cast<float>(area / image);
-}
-
 Status MakeFrames::keep(const Chart& chart, Span<const Vec2f> uv, Arena& arena) {
   Span<Found> found;
   ISOLOD_TRY(arena.result(1, found));
@@ -66,7 +55,7 @@ Status MakeFrames::keep(const Chart& chart, Span<const Vec2f> uv, Arena& arena) 
   }
   for (VertexId v : Ids<VertexId>(uv.count)) {
     frame.uv[v] = uv[v];
-    frame.stretch[v] = vertex_stretch(*surface_, chart, uv, v);
+    frame.stretch[v] = static_cast<float>(vertex_stretch(*surface_, chart, uv, v));
   }
   return {};
 }

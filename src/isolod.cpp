@@ -45,6 +45,7 @@
 
 #include "result/feature_lines.cpp"
 #include "result/lift.cpp"
+#include "result/output.cpp"
 #include "result/stitch.cpp"
 
 #include "relax/descent.cpp"

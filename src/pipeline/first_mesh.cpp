@@ -4,6 +4,8 @@
 #include "pipeline/state.h"
 #include "result/feature_lines.h"
 #include "result/lift.h"
+#include "result/output.h"
+#include "sample/lloyd_line.h"
 #include "surface/density.h"
 #include "surface/features.h"
 
@@ -136,6 +138,7 @@ Status step_lines(State& s, bool& done, std::uint64_t& units) {
     return {};
   }
   ISOLOD_TRY(status);
+  ISOLOD_TRY(relax_lines(s.surface, s.backbones, s.lines, s.options.weight, default_line_iterations, *s.arena));
   s.numbers = {static_cast<std::uint32_t>(nodes), static_cast<std::uint32_t>(s.lines.place.count)};
   units = face_units(s);
   done = true;
@@ -226,9 +229,7 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
 Status step_lift(State& s, bool& done, std::uint64_t& units) {
   ISOLOD_TRY(s.arena->result(3 * s.samples.count(), s.positions));
   lift_samples(s.surface, s.samples, s.positions);
-  const Halfedges& mesh = s.stitch.mesh().mesh;
-  ISOLOD_TRY(s.arena->result(mesh.halfedge_count(), s.triangles));
-  for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) s.triangles[h] = mesh.origin[h].value;
+  ISOLOD_TRY(list_triangles(s.stitch.mesh().mesh, s.triangles, *s.arena));
   units = s.options.vertex_count;
   done = true;
   return {};

@@ -51,6 +51,7 @@
 #include "relax/descent.cpp"
 #include "relax/frame_ground.cpp"
 #include "relax/frames.cpp"
+#include "relax/mend_flat.cpp"
 #include "relax/relaxation.cpp"
 #include "relax/split_edges.cpp"
 

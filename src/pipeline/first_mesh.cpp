@@ -4,6 +4,7 @@
 #include "pipeline/state.h"
 #include "result/feature_lines.h"
 #include "result/lift.h"
+#include "relax/mend_flat.h"
 #include "result/output.h"
 #include "sample/lloyd_line.h"
 #include "surface/density.h"
@@ -227,6 +228,7 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
 }
 
 Status step_lift(State& s, bool& done, std::uint64_t& units) {
+  mend_flat_faces(s.surface, s.stitch.mesh(), s.samples);
   ISOLOD_TRY(s.arena->result(3 * s.samples.count(), s.positions));
   lift_samples(s.surface, s.samples, s.positions);
   ISOLOD_TRY(list_triangles(s.stitch.mesh().mesh, s.triangles, *s.arena));

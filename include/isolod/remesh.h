@@ -16,12 +16,12 @@ inline namespace v1 {
 struct RepairReport {
   std::uint32_t welded_vertices = 0;
   std::uint32_t unused_vertices = 0;
-  std::uint32_t degenerate_triangles = 0;     ///< without area: removed
-  std::uint32_t duplicate_triangles = 0;      ///< the same three vertices again: removed
-  std::uint32_t nonmanifold_edges_cut = 0;    ///< edges with more than two triangles: cut apart
-  std::uint32_t nonmanifold_vertices_cut = 0; ///< vertices whose triangles form several fans: one copy a fan
-  std::uint32_t flipped_triangles = 0;        ///< turned over to agree with their component
-  std::uint32_t one_sided_cuts = 0;           ///< edges opened in a component that has no two sides
+  std::uint32_t degenerate_triangles = 0;      ///< without area: removed
+  std::uint32_t duplicate_triangles = 0;       ///< the same three vertices again: removed
+  std::uint32_t nonmanifold_edges_cut = 0;     ///< edges with more than two triangles: cut apart
+  std::uint32_t nonmanifold_vertices_cut = 0;  ///< vertices whose triangles form several fans: one copy a fan
+  std::uint32_t flipped_triangles = 0;         ///< turned over to agree with their component
+  std::uint32_t one_sided_cuts = 0;            ///< edges opened in a component that has no two sides
 
   bool changed() const;
 };
@@ -29,9 +29,9 @@ struct RepairReport {
 /// One stage of a run, in the order in which it ran.
 struct StageReport {
   const char* name = nullptr;
-  std::uint64_t hash = 0;        ///< of the stage's result: the first difference between two machines shows here
-  double seconds = 0;            ///< by `Hooks::clock`; 0 without one
-  std::size_t arena_bytes = 0;   ///< the most that was in use while it ran
+  std::uint64_t hash = 0;       ///< of the stage's result: the first difference between two machines shows here
+  double seconds = 0;           ///< by `Hooks::clock`; 0 without one
+  std::size_t arena_bytes = 0;  ///< the most that was in use while it ran
 };
 
 /// What a run did. Filled also when it fails, as far as it came.
@@ -66,8 +66,8 @@ struct Hooks {
 
 /// The result of a run: lies in the arena until that is used again.
 struct ResultMesh {
-  Span<const double> positions;        ///< 3 a vertex
-  Span<const std::uint32_t> triangles; ///< 3 a triangle
+  Span<const double> positions;         ///< 3 a vertex
+  Span<const std::uint32_t> triangles;  ///< 3 a triangle
 };
 
 /// A remeshing that lives in an arena and can be spread over many calls. The result does not depend on how the work
@@ -82,11 +82,12 @@ class Remesher {
   Status advance(std::uint64_t work);
 
   bool done() const;
-  ResultMesh result() const;  ///< once done
+  ResultMesh result() const;     ///< once done
   const Report& report() const;  ///< only after a `begin` that succeeded
 
   struct State;
-  /// What the run holds between two calls, for tools that draw and test the stages (pipeline/state.h). Null before `begin`.
+  /// What the run holds between two calls, for tools that draw and test the stages (pipeline/state.h). Null before
+  /// `begin`.
   const State* state() const { return state_; }
 
  private:

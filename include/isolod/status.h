@@ -22,23 +22,23 @@ enum class Element : std::uint8_t {
 struct [[nodiscard]] Status {
   enum Code : std::uint8_t {
     ok,
-    cancelled,            ///< the caller's progress callback returned false
-    invalid_option,       ///< an option is out of its range
-    empty_mesh,           ///< no triangle with area is left
-    too_large,            ///< more elements than 32-bit indices can name
-    index_out_of_range,   ///< `value` is the first triangle (or tagged edge) that names no vertex
-    position_not_finite,  ///< `value` is the first vertex with NaN or infinity
-    density_not_positive, ///< `value` is the first vertex whose density is not a positive finite number
-    budget_too_small,     ///< the topology and the corners need more; `value` vertices work
-    out_of_memory,        ///< the block is too small; `value` bytes do
-    no_convergence,       ///< a bounded loop reached its bound with no usable result
-    sink_failed,          ///< the caller's sink returned false
-    cannot_open,          ///< a file cannot be opened, read or written
-    unknown_format,       ///< no reader or writer for this kind of file
-    syntax_error,         ///< the file breaks its format at line or byte `value`
-    truncated_file,       ///< the file ends before its contents do
-    unsupported_feature,  ///< the file is valid but uses what is not read here
-    invalid_result,       ///< validation found a broken invariant: a defect of this library
+    cancelled,             ///< the caller's progress callback returned false
+    invalid_option,        ///< an option is out of its range
+    empty_mesh,            ///< no triangle with area is left
+    too_large,             ///< more elements than 32-bit indices can name
+    index_out_of_range,    ///< `value` is the first triangle (or tagged edge) that names no vertex
+    position_not_finite,   ///< `value` is the first vertex with NaN or infinity
+    density_not_positive,  ///< `value` is the first vertex whose density is not a positive finite number
+    budget_too_small,      ///< the topology and the corners need more; `value` vertices work
+    out_of_memory,         ///< the block is too small; `value` bytes do
+    no_convergence,        ///< a bounded loop reached its bound with no usable result
+    sink_failed,           ///< the caller's sink returned false
+    cannot_open,           ///< a file cannot be opened, read or written
+    unknown_format,        ///< no reader or writer for this kind of file
+    syntax_error,          ///< the file breaks its format at line or byte `value`
+    truncated_file,        ///< the file ends before its contents do
+    unsupported_feature,   ///< the file is valid but uses what is not read here
+    invalid_result,        ///< validation found a broken invariant: a defect of this library
   };
 
   Code code = ok;

@@ -7,8 +7,8 @@ inline namespace v1 {
 
 namespace {
 
-void connect_locally(const Surface& surface, Span<const std::uint32_t> chart_of_face,
-                     Span<const std::uint32_t> place, Chart& chart) {
+void connect_locally(const Surface& surface, Span<const std::uint32_t> chart_of_face, Span<const std::uint32_t> place,
+                     Chart& chart) {
   const std::uint32_t own = chart_of_face[chart.faces[0u]];
   for (HalfedgeId h : Ids<HalfedgeId>(chart.mesh.halfedge_count())) {
     const HalfedgeId t = surface.mesh.twin[chart.on_surface(h)];
@@ -74,8 +74,8 @@ Status measure_chart(const Halfedges& mesh, ChartTopology& topology, Arena& aren
     ++topology.boundary_loops;
     for (HalfedgeId b = h; !seen[b]; b = next_on_boundary(mesh, b)) seen[b] = 1;
   }
-  topology.euler_characteristic = static_cast<std::int64_t>(mesh.vertex_count()) - edge_count +
-                                  static_cast<std::int64_t>(mesh.face_count());
+  topology.euler_characteristic =
+      static_cast<std::int64_t>(mesh.vertex_count()) - edge_count + static_cast<std::int64_t>(mesh.face_count());
   return {};
 }
 

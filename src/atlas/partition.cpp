@@ -70,8 +70,8 @@ void DualDistance::spread(FaceId seed, std::uint32_t label, Span<const std::uint
       const FaceId g = face(surface_->mesh.twin[h]);
       if (!region.empty() && region[g] != region[seed]) continue;
       const double d = entry.key + static_cast<double>(cost_[h]);
-      // At a tie the new label wins: a face whose way leads over one that has just changed hands must follow it, also where
-      // rounding has made its own distance no smaller, or its region would be torn.
+      // At a tie the new label wins: a face whose way leads over one that has just changed hands must follow it, also
+      // where rounding has made its own distance no smaller, or its region would be torn.
       if (!(d < distance_[g]) && !(d == distance_[g] && label_[g] != label)) continue;
       distance_[g] = d;
       label_[g] = label;
@@ -107,8 +107,7 @@ void DualDistance::grow(Span<const FaceId> core, double limit, Span<FaceId>& rea
 namespace {
 
 /// Seeds by farthest point until every face lies within `radius` of one.
-Status place_seeds(std::size_t face_count, double radius, DualDistance& distances, Span<FaceId>& seeds,
-                   Arena& arena) {
+Status place_seeds(std::size_t face_count, double radius, DualDistance& distances, Span<FaceId>& seeds, Arena& arena) {
   ISOLOD_TRY(arena.scratch(face_count, seeds));
   std::uint32_t count = 0;
   FaceId farthest{0};

@@ -1,9 +1,11 @@
-// Cuts the surface into charts: connected regions of about equal wished sample count, compact, along lines where possible.
+// Cuts the surface into charts: connected regions of about equal wished sample count, compact, along lines where
+// possible.
 //
 // Seeds are placed one after the other at the face farthest from those before, distance measured over the dual graph in
-// wished edge lengths, until no face is farther than a radius; then a few rounds of Lloyd's algorithm on regions make them
-// round (Cohen-Steiner, Alliez and Desbrun, "Variational shape approximation", 2004, has the same scheme with another
-// metric). Ears are given to the neighbour whose border they shorten. Equal distances go to the label that spread later, other ties to the lower index.
+// wished edge lengths, until no face is farther than a radius; then a few rounds of Lloyd's algorithm on regions make
+// them round (Cohen-Steiner, Alliez and Desbrun, "Variational shape approximation", 2004, has the same scheme with
+// another metric). Ears are given to the neighbour whose border they shorten. Equal distances go to the label that
+// spread later, other ties to the lower index.
 #pragma once
 
 #include "base/heap.h"
@@ -33,8 +35,8 @@ class DualDistance {
   /// `region` equals that of the seed (an empty span: everywhere). O(faces reached * log).
   void spread(FaceId seed, std::uint32_t label, Span<const std::uint32_t> region);
 
-  /// All faces within `limit` of a face of `core`, the core first, into `reached`, which has room for every face. What was known
-  /// of distances is forgotten. O(faces reached * log).
+  /// All faces within `limit` of a face of `core`, the core first, into `reached`, which has room for every face. What
+  /// was known of distances is forgotten. O(faces reached * log).
   void grow(Span<const FaceId> core, double limit, Span<FaceId>& reached);
 
   double distance(FaceId f) const { return distance_[f]; }
@@ -53,14 +55,14 @@ class DualDistance {
 };
 
 struct PartitionOptions {
-  double line_rate = 0;          ///< R_f
+  double line_rate = 0;  ///< R_f
   double samples_per_chart = 250;
-  std::uint32_t rounds = 3;      ///< of Lloyd's algorithm on the regions
+  std::uint32_t rounds = 3;  ///< of Lloyd's algorithm on the regions
   Lines lines = Lines::dear;
 };
 
-/// Labels every face with a region below `region_count`. `label` is given, one entry a face. Every region is connected and no
-/// component is without one. O(n log n log k) time; about 40 bytes a face of scratch.
+/// Labels every face with a region below `region_count`. `label` is given, one entry a face. Every region is connected
+/// and no component is without one. O(n log n log k) time; about 40 bytes a face of scratch.
 Status partition(const Surface& surface, const PartitionOptions& options, Span<std::uint32_t> label,
                  std::uint32_t& region_count, Arena& arena);
 
@@ -70,8 +72,9 @@ Status order_by_region(Span<const std::uint32_t> label, std::uint32_t region_cou
 /// The end of the run of one label in `order` that starts at `first`.
 std::size_t end_of_region(Span<const FaceId> order, Span<const std::uint32_t> label, std::size_t first);
 
-/// Splits the region of `faces`, which are all that have its label, in two: some of them get `new_label` and come last in `faces`.
-/// Both parts are connected if the region was. `distances` is a tool; 4 bytes a face of scratch, given back.
+/// Splits the region of `faces`, which are all that have its label, in two: some of them get `new_label` and come last
+/// in `faces`. Both parts are connected if the region was. `distances` is a tool; 4 bytes a face of scratch, given
+/// back.
 Status split_region(Span<FaceId> faces, std::uint32_t new_label, Span<std::uint32_t> label, DualDistance& distances,
                     Arena& arena);
 

@@ -31,7 +31,8 @@ static_assert(sizeof(float) == 4 && FLT_MANT_DIG == 24, "isolod: float must be I
 #endif
 
 #if defined(ISOLOD_CHECKED)
-#define ISOLOD_ASSERT(condition) ((condition) ? void(0) : ::isolod::v1::broken_assertion(#condition, __FILE__, __LINE__))
+#define ISOLOD_ASSERT(condition) \
+  ((condition) ? void(0) : ::isolod::v1::broken_assertion(#condition, __FILE__, __LINE__))
 #else
 #define ISOLOD_ASSERT(condition) void(0)
 #endif

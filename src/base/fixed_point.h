@@ -11,7 +11,8 @@ using FixedCount = std::int64_t;
 
 constexpr FixedCount one_sample = FixedCount{1} << 32;
 
-/// Nearest fixed-point value, halves away from zero; |x| must be below 2^30. (Adding one half first would itself round.)
+/// Nearest fixed-point value, halves away from zero; |x| must be below 2^30. (Adding one half first would itself
+/// round.)
 inline FixedCount to_fixed(double x) {
   const double scaled = x * 4294967296.0;
   const FixedCount whole = static_cast<FixedCount>(scaled);

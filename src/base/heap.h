@@ -53,9 +53,7 @@ class IndexedHeap {
  private:
   static constexpr std::uint32_t absent = UINT32_MAX;
 
-  bool before(std::uint32_t a, std::uint32_t b) const {
-    return key_[a] < key_[b] || (key_[a] == key_[b] && a < b);
-  }
+  bool before(std::uint32_t a, std::uint32_t b) const { return key_[a] < key_[b] || (key_[a] == key_[b] && a < b); }
   void put(std::uint32_t place, std::uint32_t element) {
     element_[place] = element;
     place_[element] = place;

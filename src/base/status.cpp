@@ -7,38 +7,64 @@ Status fail(Status::Code code, Element element, std::uint64_t value) { return St
 
 const char* name(Status::Code code) {
   switch (code) {
-    case Status::ok: return "ok";
-    case Status::cancelled: return "cancelled";
-    case Status::invalid_option: return "invalid_option";
-    case Status::empty_mesh: return "empty_mesh";
-    case Status::too_large: return "too_large";
-    case Status::index_out_of_range: return "index_out_of_range";
-    case Status::position_not_finite: return "position_not_finite";
-    case Status::density_not_positive: return "density_not_positive";
-    case Status::budget_too_small: return "budget_too_small";
-    case Status::out_of_memory: return "out_of_memory";
-    case Status::no_convergence: return "no_convergence";
-    case Status::sink_failed: return "sink_failed";
-    case Status::cannot_open: return "cannot_open";
-    case Status::unknown_format: return "unknown_format";
-    case Status::syntax_error: return "syntax_error";
-    case Status::truncated_file: return "truncated_file";
-    case Status::unsupported_feature: return "unsupported_feature";
-    case Status::invalid_result: return "invalid_result";
+    case Status::ok:
+      return "ok";
+    case Status::cancelled:
+      return "cancelled";
+    case Status::invalid_option:
+      return "invalid_option";
+    case Status::empty_mesh:
+      return "empty_mesh";
+    case Status::too_large:
+      return "too_large";
+    case Status::index_out_of_range:
+      return "index_out_of_range";
+    case Status::position_not_finite:
+      return "position_not_finite";
+    case Status::density_not_positive:
+      return "density_not_positive";
+    case Status::budget_too_small:
+      return "budget_too_small";
+    case Status::out_of_memory:
+      return "out_of_memory";
+    case Status::no_convergence:
+      return "no_convergence";
+    case Status::sink_failed:
+      return "sink_failed";
+    case Status::cannot_open:
+      return "cannot_open";
+    case Status::unknown_format:
+      return "unknown_format";
+    case Status::syntax_error:
+      return "syntax_error";
+    case Status::truncated_file:
+      return "truncated_file";
+    case Status::unsupported_feature:
+      return "unsupported_feature";
+    case Status::invalid_result:
+      return "invalid_result";
   }
   return "unknown";
 }
 
 const char* name(Element element) {
   switch (element) {
-    case Element::none: return "";
-    case Element::vertex: return "vertex";
-    case Element::triangle: return "triangle";
-    case Element::edge: return "edge";
-    case Element::line: return "line";
-    case Element::byte: return "byte";
-    case Element::option: return "option";
-    case Element::count: return "vertices";
+    case Element::none:
+      return "";
+    case Element::vertex:
+      return "vertex";
+    case Element::triangle:
+      return "triangle";
+    case Element::edge:
+      return "edge";
+    case Element::line:
+      return "line";
+    case Element::byte:
+      return "byte";
+    case Element::option:
+      return "option";
+    case Element::count:
+      return "vertices";
   }
   return "";
 }

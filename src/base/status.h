@@ -14,7 +14,7 @@ Status fail(Status::Code code, Element element = Element::none, std::uint64_t va
 }  // namespace isolod
 
 /// Carries a failure up to the caller.
-#define ISOLOD_TRY(expression)                                            \
-  do {                                                                    \
+#define ISOLOD_TRY(expression)                                                                             \
+  do {                                                                                                     \
     if (const ::isolod::Status isolod_status = (expression); !isolod_status.is_ok()) return isolod_status; \
   } while (false)

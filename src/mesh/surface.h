@@ -27,9 +27,9 @@ struct Surface {
   Span<const std::uint32_t> source_face;    ///< per face: the caller's triangle
   Span<const Vec3> midpoint;                ///< positions of the vertices that refinement added
   Halfedges mesh;
-  Span<std::uint8_t> line;         ///< per halfedge, equal on twins: bits of LineKind
-  Span<std::uint8_t> corner;       ///< per vertex: 1 at a corner of the feature skeleton
-  Span<float> wedge_density;       ///< per halfedge: d_s at its origin, in its wedge; empty: 1 everywhere
+  Span<std::uint8_t> line;    ///< per halfedge, equal on twins: bits of LineKind
+  Span<std::uint8_t> corner;  ///< per vertex: 1 at a corner of the feature skeleton
+  Span<float> wedge_density;  ///< per halfedge: d_s at its origin, in its wedge; empty: 1 everywhere
 
   Vec3 position(VertexId v) const {
     const std::size_t sources = source_vertex.count;
@@ -62,7 +62,8 @@ inline double face_density(const Surface& surface, FaceId f) {
 /// The diagonal of the bounding box. O(vertices).
 double diagonal(const Surface& surface);
 
-/// The halfedge that begins the wedge of `h`: clockwise from `h` the first on a line, or h itself where the vertex has none.
+/// The halfedge that begins the wedge of `h`: clockwise from `h` the first on a line, or h itself where the vertex has
+/// none.
 inline HalfedgeId wedge_start(const Surface& surface, HalfedgeId h) {
   const HalfedgeId first = h;
   while (surface.line[h] == line_none) {

@@ -36,7 +36,8 @@ void set_face(Triangulation& t, FaceId f, VertexId a, VertexId b, VertexId c) {
 
 void kill_face(Triangulation& t, FaceId f) { set_face(t, f, none<VertexId>(), none<VertexId>(), none<VertexId>()); }
 
-/// The side `to` takes the place of the side `from` of a face that goes: its outer neighbour, its flag, its origin's way out.
+/// The side `to` takes the place of the side `from` of a face that goes: its outer neighbour, its flag, its origin's
+/// way out.
 void hand_over(Triangulation& t, HalfedgeId from, HalfedgeId to) {
   join(t, to, t.mesh.twin[from]);
   t.fixed[to] = t.fixed[from];
@@ -152,7 +153,8 @@ void remove_inner_vertex(Triangulation& t, VertexId v) {
   hand_over(t, ca, new_ca);
   mesh.origin[new_bc] = b;
   mesh.origin[new_ca] = c;
-  // The way out of a, b or c may have been a side that is gone; its side of the face that stays takes over, boundary or not.
+  // The way out of a, b or c may have been a side that is gone; its side of the face that stays takes over, boundary or
+  // not.
   const FaceId gone1 = face(bc), gone2 = face(ca);
   if (face(mesh.outgoing[a]) == gone2) mesh.outgoing[a] = ab;
   if (face(mesh.outgoing[b]) == gone1) mesh.outgoing[b] = new_bc;

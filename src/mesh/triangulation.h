@@ -1,8 +1,8 @@
 // Halfedges that are edited in place: edges flipped and split, vertices put in and taken out.
 //
 // Every operation keeps the mesh an oriented 2-manifold; none looks at geometry. An edge may be fixed: then it is never
-// flipped. Arrays have room for what is to come; `mesh.origin.count` is what is in use. A face that was taken out keeps its
-// place, with no origins, until `compact`.
+// flipped. Arrays have room for what is to come; `mesh.origin.count` is what is in use. A face that was taken out keeps
+// its place, with no origins, until `compact`.
 #pragma once
 
 #include "mesh/halfedge.h"
@@ -24,7 +24,8 @@ Status reserve(Triangulation& t, std::size_t vertex_capacity, std::size_t face_c
 /// Whether an edge joins a and b, in either direction. O(valence).
 bool are_adjacent(const Halfedges& mesh, VertexId a, VertexId b);
 
-/// Whether the edge of `h` can be flipped without doubling an edge: it is inside and not fixed, and its apexes are not joined yet.
+/// Whether the edge of `h` can be flipped without doubling an edge: it is inside and not fixed, and its apexes are not
+/// joined yet.
 bool can_flip(const Triangulation& t, HalfedgeId h);
 
 /// Turns the edge a b of `h`, with apexes c and d, into the edge c d. Afterwards prev(h) runs from c to d.
@@ -42,8 +43,8 @@ void remove_inner_vertex(Triangulation& t, VertexId v);
 /// Takes out a vertex of one face on the boundary, and that face.
 void remove_boundary_vertex(Triangulation& t, VertexId v);
 
-/// Closes the gaps that dead faces left and renumbers vertices by `new_number` (none: dropped), in place. `vertex_count` live
-/// vertices must have the numbers 0 to vertex_count - 1. O(faces) time, 4 bytes a face of scratch.
+/// Closes the gaps that dead faces left and renumbers vertices by `new_number` (none: dropped), in place.
+/// `vertex_count` live vertices must have the numbers 0 to vertex_count - 1. O(faces) time, 4 bytes a face of scratch.
 Status compact(Triangulation& t, Span<const VertexId> new_number, std::size_t vertex_count, Arena& arena);
 
 }  // namespace v1

@@ -2,9 +2,9 @@
 #include "mesh/validate.h"
 #include "pipeline/stage_hashes.h"
 #include "pipeline/state.h"
+#include "relax/mend_flat.h"
 #include "result/feature_lines.h"
 #include "result/lift.h"
-#include "relax/mend_flat.h"
 #include "result/output.h"
 #include "sample/lloyd_line.h"
 #include "surface/density.h"
@@ -19,7 +19,7 @@ using State = Remesher::State;
 
 constexpr std::uint32_t least_first_count = 2000;
 constexpr std::uint32_t atlas_stage = 6;  // its place in `stage_entries`
-constexpr double refine_limit = 1.25;  // wished edge lengths
+constexpr double refine_limit = 1.25;     // wished edge lengths
 
 std::uint64_t face_units(const State& s) { return s.surface.mesh.face_count(); }
 
@@ -252,20 +252,13 @@ Status step_validate(State& s, bool& done, std::uint64_t& units) {
 }  // namespace
 
 const StageEntry stage_entries[] = {
-    {"repair", step_repair, hash_repaired, 0.05},
-    {"halfedge", step_halfedge, hash_connectivity, 0.02},
-    {"features", step_features, hash_lines, 0.02},
-    {"density", step_density, hash_density, 0.02},
-    {"calibrate", step_calibrate, hash_rates, 0.01},
-    {"refine", step_refine, hash_connectivity, 0.02},
-    {"atlas", step_atlas, hash_atlas, 0.4},
-    {"lines", step_lines, hash_line_samples, 0.01},
-    {"diffuse", step_diffuse, hash_places, 0.02},
-    {"charts", step_charts, hash_places, 0.4},
-    {"stitch", step_stitch, hash_places, 0.02},
-    {"levels", step_levels, hash_samples, 0.5},
-    {"lift", step_lift, hash_result, 0.01},
-    {"validate", step_validate, hash_result, 0.01},
+    {"repair", step_repair, hash_repaired, 0.05},    {"halfedge", step_halfedge, hash_connectivity, 0.02},
+    {"features", step_features, hash_lines, 0.02},   {"density", step_density, hash_density, 0.02},
+    {"calibrate", step_calibrate, hash_rates, 0.01}, {"refine", step_refine, hash_connectivity, 0.02},
+    {"atlas", step_atlas, hash_atlas, 0.4},          {"lines", step_lines, hash_line_samples, 0.01},
+    {"diffuse", step_diffuse, hash_places, 0.02},    {"charts", step_charts, hash_places, 0.4},
+    {"stitch", step_stitch, hash_places, 0.02},      {"levels", step_levels, hash_samples, 0.5},
+    {"lift", step_lift, hash_result, 0.01},          {"validate", step_validate, hash_result, 0.01},
 };
 const std::uint32_t stage_entry_count = sizeof stage_entries / sizeof stage_entries[0];
 

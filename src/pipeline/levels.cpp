@@ -78,7 +78,8 @@ Status Levels::step(const Surface& surface, Triangulation& mesh, Samples& sample
       phase_ = Phase::begin_frames;
       return {};
     case Phase::done:
-    case Phase::unresolved: return {};
+    case Phase::unresolved:
+      return {};
   }
   return {};
 }

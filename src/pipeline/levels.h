@@ -1,7 +1,8 @@
 // Coarse to fine: the levels of a run, and the stage that climbs them.
 //
-// The first mesh is made at the coarsest level. Each level is relaxed in overlapping charts of its own; then every edge is split, a
-// few planned samples are put in where density is short, and the next level begins. The last one has exactly V.
+// The first mesh is made at the coarsest level. Each level is relaxed in overlapping charts of its own; then every edge
+// is split, a few planned samples are put in where density is short, and the next level begins. The last one has
+// exactly V.
 #pragma once
 
 #include "isolod/options.h"
@@ -19,8 +20,8 @@ struct LevelPlan {
   std::uint32_t inserted[most_splits + 1] = {};
 };
 
-/// As many splits, up to `most_splits`, as leave the first level at least `least_first` samples. On a closed surface a level of V
-/// samples gives 4 V - 3 chi.
+/// As many splits, up to `most_splits`, as leave the first level at least `least_first` samples. On a closed surface a
+/// level of V samples gives 4 V - 3 chi.
 LevelPlan plan_levels(std::uint32_t vertex_count, std::int64_t euler_characteristic, std::uint32_t most_splits,
                       std::uint32_t least_first);
 
@@ -38,8 +39,8 @@ class Levels {
   /// Tries one frame, or does one iteration, or one split.
   Status step(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   bool done() const { return phase_ == Phase::done; }
-  /// Whether the first level was given up because too many of its samples have stars that no map holds, and there is a finer one
-  /// to start from.
+  /// Whether the first level was given up because too many of its samples have stars that no map holds, and there is a
+  /// finer one to start from.
   bool is_unresolved() const { return phase_ == Phase::unresolved; }
 
  private:

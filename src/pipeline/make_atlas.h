@@ -1,5 +1,5 @@
-// The atlas: a partition of the surface whose charts all have good maps. A chart whose map fails is split in two and tried
-// again; a single triangle always passes, so this ends.
+// The atlas: a partition of the surface whose charts all have good maps. A chart whose map fails is split in two and
+// tried again; a single triangle always passes, so this ends.
 #pragma once
 
 #include "atlas/chart.h"

@@ -11,7 +11,9 @@ namespace {
 /// The place of a member of `Options`, as a status names it.
 enum class Member : std::uint8_t { vertex_count, feature_angle, corner_angle, density, gamma };
 
-Status refuse(Member member) { return fail(Status::invalid_option, Element::option, static_cast<std::uint64_t>(member)); }
+Status refuse(Member member) {
+  return fail(Status::invalid_option, Element::option, static_cast<std::uint64_t>(member));
+}
 
 Status check_options(const Options& options) {
   constexpr std::uint32_t most_vertices = UINT32_MAX >> 3;
@@ -135,8 +137,8 @@ Status try_count(const MeshView& view, Options options, std::uint64_t count, Are
   return status;
 }
 
-/// The charts, and with them what they need at least, change with the budget, so what a status names is tried out: a number that
-/// works while one less does not.
+/// The charts, and with them what they need at least, change with the budget, so what a status names is tried out: a
+/// number that works while one less does not.
 std::uint64_t number_that_works(const MeshView& view, const Options& options, std::uint64_t named, Arena& arena) {
   constexpr std::uint32_t most_tries = 16;
   std::uint64_t too_small = options.vertex_count;
@@ -177,8 +179,8 @@ Status remesh(const MeshView& view, const Options& options, const MeshSink& sink
 
 std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options) {
   const std::size_t samples = options.vertex_count;
-  // Refinement splits a triangle into pieces of about a wished edge length; long thin ones are the worst, up to about root V pieces
-  // each, and no more of them than there are samples can be long.
+  // Refinement splits a triangle into pieces of about a wished edge length; long thin ones are the worst, up to about
+  // root V pieces each, and no more of them than there are samples can be long.
   const std::size_t long_ones = triangle_count < samples ? triangle_count : samples;
   const std::size_t refined = triangle_count + 6 * samples +
                               static_cast<std::size_t>(0.25 * square_root(static_cast<double>(samples))) * long_ones;

@@ -51,9 +51,7 @@ struct Remesher::State {
   Span<double> positions;
   Span<std::uint32_t> triangles;
 
-  SampledSurface sampled() const {
-    return {&surface, &atlas, &backbones, &lines, places, chart_start, numbers};
-  }
+  SampledSurface sampled() const { return {&surface, &atlas, &backbones, &lines, places, chart_start, numbers}; }
 };
 
 /// A stage of the run: its name and its work, piece by piece. `units` is what the piece cost.

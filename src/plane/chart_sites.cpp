@@ -22,8 +22,8 @@ Status build_flat_chart(const Surface& surface, const Atlas& atlas, Span<const V
 
 namespace {
 
-/// Of an edge: a line sample that is nearer to an original vertex takes its place. Beside it, rounding would decide which way the
-/// edge between the two runs, and faces would be inverted.
+/// Of an edge: a line sample that is nearer to an original vertex takes its place. Beside it, rounding would decide
+/// which way the edge between the two runs, and faces would be inverted.
 constexpr double nearest_to_vertex = 1e-9;
 
 /// Grows the triangulation of one chart's samples.
@@ -101,7 +101,10 @@ class SiteBuilder {
     std::size_t low = 0, high = place.count;
     while (low < high) {
       const std::size_t middle = (low + high) / 2;
-      if (place[middle].edge < edge) low = middle + 1; else high = middle;
+      if (place[middle].edge < edge)
+        low = middle + 1;
+      else
+        high = middle;
     }
     std::size_t end = low;
     while (end < place.count && place[end].edge == edge) ++end;

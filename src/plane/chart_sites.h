@@ -1,9 +1,9 @@
 // The constrained Delaunay triangulation of one chart's samples, grown out of its flattened mesh.
 //
-// Paper, section 4.3. The samples are put into the flattened mesh itself, line samples on the edges that carry them and the others by
-// walking; then the original vertices that are no samples are taken out again, inner ones first, so that the chords between
-// samples take the place of the lines. Everything is local: an overlap of the map does no harm, and the result is a manifold
-// with the chart's topology even where a chord leaves the domain.
+// Paper, section 4.3. The samples are put into the flattened mesh itself, line samples on the edges that carry them and
+// the others by walking; then the original vertices that are no samples are taken out again, inner ones first, so that
+// the chords between samples take the place of the lines. Everything is local: an overlap of the map does no harm, and
+// the result is a manifold with the chart's topology even where a chord leaves the domain.
 #pragma once
 
 #include "atlas/chart.h"
@@ -39,14 +39,14 @@ struct SampledSurface {
 /// The flattened chart: what samples are located in.
 struct FlatChart {
   Chart chart;
-  Span<Vec2> uv;              ///< per local vertex
+  Span<Vec2> uv;               ///< per local vertex
   Span<std::uint8_t> barrier;  ///< per local halfedge: the bits of its line, 0 elsewhere
 };
 
 struct ChartSites {
   PlaneTriangulation plane;
-  Span<SampleId> sample;   ///< per vertex
-  Span<FaceId> home;       ///< per vertex: a local face of the flat chart near it, where walks begin
+  Span<SampleId> sample;    ///< per vertex
+  Span<FaceId> home;        ///< per vertex: a local face of the flat chart near it, where walks begin
   std::uint32_t stuck = 0;  ///< original vertices that could not be taken out
 };
 
@@ -54,7 +54,8 @@ struct ChartSites {
 Status build_flat_chart(const Surface& surface, const Atlas& atlas, Span<const Vec2f> uv, std::size_t chart,
                         FlatChart& flat, Arena& arena);
 
-/// Fills `sites`. Scratch of about 150 bytes a local face and 100 a sample stays with the caller's scope. O(n) time in practice.
+/// Fills `sites`. Scratch of about 150 bytes a local face and 100 a sample stays with the caller's scope. O(n) time in
+/// practice.
 Status triangulate_sites(const SampledSurface& samples, const FlatChart& flat, std::size_t chart, ChartSites& sites,
                          Arena& arena);
 

@@ -66,7 +66,8 @@ std::uint32_t count_inverted(const PlaneTriangulation& p) {
   const Halfedges& mesh = p.t.mesh;
   for (FaceId f : Ids<FaceId>(mesh.face_count())) {
     if (p.t.is_dead(f)) continue;
-    count += !(p.orientation(mesh.origin[halfedge(f, 0)], mesh.origin[halfedge(f, 1)], mesh.origin[halfedge(f, 2)]) > 0);
+    count +=
+        !(p.orientation(mesh.origin[halfedge(f, 0)], mesh.origin[halfedge(f, 1)], mesh.origin[halfedge(f, 2)]) > 0);
   }
   return count;
 }
@@ -127,8 +128,8 @@ Star look_around(const Triangulation& t, VertexId v) {
   return star;
 }
 
-/// Whether the lines at v let it go: none, or one that can go on between two of its neighbours. The end of a line, a branching,
-/// and a boundary vertex that a line reaches stay.
+/// Whether the lines at v let it go: none, or one that can go on between two of its neighbours. The end of a line, a
+/// branching, and a boundary vertex that a line reaches stay.
 bool may_leave(const Triangulation& t, VertexId v) {
   const Star star = look_around(t, v);
   const HalfedgeId out = t.mesh.outgoing[v];
@@ -143,8 +144,8 @@ void fix_between(Triangulation& t, VertexId p, VertexId q, std::uint8_t bits) {
   if (const HalfedgeId g = t.mesh.twin[h]; !g.is_none()) t.fixed[g] = bits;
 }
 
-/// Takes v out if it has as few faces as can be: one on the boundary, three inside (on a line too: two of its neighbours are then
-/// those along the line).
+/// Takes v out if it has as few faces as can be: one on the boundary, three inside (on a line too: two of its
+/// neighbours are then those along the line).
 bool remove_bare(Triangulation& t, VertexId v, const Star& star, EdgeStack& stack) {
   const Halfedges& mesh = t.mesh;
   const HalfedgeId out = mesh.outgoing[v];
@@ -161,8 +162,8 @@ bool remove_bare(Triangulation& t, VertexId v, const Star& star, EdgeStack& stac
   return true;
 }
 
-/// Where every ear at v is blocked by an edge that joins its tips already, such an edge that can be flipped, or none. It
-/// encloses a site between itself and v; once it is flipped the site is outside, and the ear is free.
+/// Where every ear at v is blocked by an edge that joins its tips already, such an edge that can be flipped, or none.
+/// It encloses a site between itself and v; once it is flipped the site is outside, and the ear is free.
 HalfedgeId blocking_edge(const PlaneTriangulation& p, VertexId v) {
   const Halfedges& mesh = p.t.mesh;
   const HalfedgeId first = mesh.outgoing[v];

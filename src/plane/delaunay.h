@@ -1,8 +1,9 @@
 // Constrained Delaunay triangulations that are changed in place.
 //
-// Lawson's flips (1977) with exact predicates: an edge that is not fixed is flipped while the apex beyond it lies inside the circle
-// about the face before it. Fixed edges are constraints, the boundary is fixed. All triangles are meant to be positive; where some
-// are not (a chord that cuts through a sample's star), flips that would make things worse are left out.
+// Lawson's flips (1977) with exact predicates: an edge that is not fixed is flipped while the apex beyond it lies
+// inside the circle about the face before it. Fixed edges are constraints, the boundary is fixed. All triangles are
+// meant to be positive; where some are not (a chord that cuts through a sample's star), flips that would make things
+// worse are left out.
 #pragma once
 
 #include "base/vector.h"
@@ -36,14 +37,16 @@ struct EdgeStack {
 /// Flips until no edge on the stack, or reached from there, violates the in-circle test. Afterwards the stack is empty.
 void flip_from(PlaneTriangulation& p, EdgeStack& stack);
 
-/// Flips until the whole triangulation is constrained Delaunay, at most `most_sweeps` sweeps; returns the number of flips.
+/// Flips until the whole triangulation is constrained Delaunay, at most `most_sweeps` sweeps; returns the number of
+/// flips.
 std::uint64_t flip_all(PlaneTriangulation& p, std::uint32_t most_sweeps);
 
 /// The number of faces that are not positive.
 std::uint32_t count_inverted(const PlaneTriangulation& p);
 
-/// Takes vertex v out. Around v edges are flipped away until it can go; the geometry chooses among the flips that keep the
-/// mesh a manifold. Returns false, with the mesh still valid, where every way is blocked. Edges that changed go on the stack.
+/// Takes vertex v out. Around v edges are flipped away until it can go; the geometry chooses among the flips that keep
+/// the mesh a manifold. Returns false, with the mesh still valid, where every way is blocked. Edges that changed go on
+/// the stack.
 bool take_out(PlaneTriangulation& p, VertexId v, EdgeStack& stack);
 
 }  // namespace v1

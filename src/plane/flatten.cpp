@@ -180,8 +180,8 @@ Status improve(const Chart& chart, const ChartMetric& metric, const FlattenOptio
   }
 }
 
-/// A chart of one face is laid down as it is, its longest side along the first axis: rounding cannot turn it over there, however
-/// thin it is, so that splitting charts comes to an end.
+/// A chart of one face is laid down as it is, its longest side along the first axis: rounding cannot turn it over
+/// there, however thin it is, so that splitting charts comes to an end.
 void lay_down_triangle(const Surface& surface, const Chart& chart, Span<Vec2f> uv) {
   constexpr double least_height = 1e-12;  // of the width, where even the height in double precision is lost
   HalfedgeId base{0};

@@ -106,8 +106,8 @@ void Lloyd::find_targets() {
     if (!is_movable(v)) continue;
     make_cell(plane, corners_, site_weight_, v, cell);
     const Vec2 site = plane.point[v];
-    const Moment moment = is_exact() ? exact_.integrate(cell, site, sites_->home[v])
-                                     : integrate(cell, site, site_weight_[v]);
+    const Moment moment =
+        is_exact() ? exact_.integrate(cell, site, sites_->home[v]) : integrate(cell, site, site_weight_[v]);
     if (moment.mass > 0) target_[v] = site + options_.step / moment.mass * moment.first;
   }
 }

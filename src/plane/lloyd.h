@@ -1,10 +1,10 @@
 // Lloyd's relaxation of the sites of one chart.
 //
-// Paper, section 4.4.1 and section 6: every site inside moves to the centroid of its bounded Voronoi cell, all at once, and the
-// triangulation is mended by flips from where it was. The weight is looked up where the sites are and is linear between them.
-// Sites on lines stay. A step that would invert a face, or take a site over a line of the surface, is shortened or
-// dropped. The weight for a wished density d is d^2: the fixed point then has d sites per area (Gersho 1979; Du, Faber and
-// Gunzburger 1999).
+// Paper, section 4.4.1 and section 6: every site inside moves to the centroid of its bounded Voronoi cell, all at once,
+// and the triangulation is mended by flips from where it was. The weight is looked up where the sites are and is linear
+// between them. Sites on lines stay. A step that would invert a face, or take a site over a line of the surface, is
+// shortened or dropped. The weight for a wished density d is d^2: the fixed point then has d sites per area (Gersho
+// 1979; Du, Faber and Gunzburger 1999).
 #pragma once
 
 #include "isolod/options.h"

@@ -1,7 +1,7 @@
 // Point location by walking.
 //
-// A visibility walk (Devillers, Pion and Teillaud, 2002) from a face that is likely near: cross any side that has the point on
-// its other side. Barriers are not crossed. A walk that takes too long is replaced by a scan of all faces.
+// A visibility walk (Devillers, Pion and Teillaud, 2002) from a face that is likely near: cross any side that has the
+// point on its other side. Barriers are not crossed. A walk that takes too long is replaced by a scan of all faces.
 #pragma once
 
 #include "base/vector.h"
@@ -19,7 +19,8 @@ struct WalkGround {
 
 struct Location {
   FaceId face;
-  HalfedgeId blocked;  ///< none where the face holds the point (or touches it); else the side that the walk may not cross
+  HalfedgeId
+      blocked;  ///< none where the face holds the point (or touches it); else the side that the walk may not cross
 };
 
 /// Where `p` is, from `start` on. O(sqrt n) steps when `start` is far, O(1) when it is near.

@@ -1,8 +1,9 @@
 // Least squares conformal maps with a free boundary.
 //
-// Levy, Petitjean, Ray and Maillot (2002); in the form of Desbrun, Meyer and Alliez (2002) the energy is the Dirichlet energy
-// (cotangent Laplacian) less the area of the image, and the area is a sum over boundary edges. Two vertices are pinned. For the
-// charts of an atlas nobody needs the minimiser: the iteration starts from a good map and stops when the map will do.
+// Levy, Petitjean, Ray and Maillot (2002); in the form of Desbrun, Meyer and Alliez (2002) the energy is the Dirichlet
+// energy (cotangent Laplacian) less the area of the image, and the area is a sum over boundary edges. Two vertices are
+// pinned. For the charts of an atlas nobody needs the minimiser: the iteration starts from a good map and stops when
+// the map will do.
 #pragma once
 
 #include "mesh/halfedge.h"
@@ -35,12 +36,12 @@ class ConformalSystem {
 
 /// How good a map is. The ratio of a triangle is that of its two singular values, 1 where the map is conformal.
 struct MapQuality {
-  std::uint32_t flipped = 0;    ///< triangles without positive area in the plane
-  double mean_ratio = 1;        ///< weighted by area on the surface
-  double share_over_12 = 0;     ///< share of the area whose ratio is over 1.2
-  double least_stretch = 1;     ///< area on the surface over area in the plane, about a vertex
+  std::uint32_t flipped = 0;  ///< triangles without positive area in the plane
+  double mean_ratio = 1;      ///< weighted by area on the surface
+  double share_over_12 = 0;   ///< share of the area whose ratio is over 1.2
+  double least_stretch = 1;   ///< area on the surface over area in the plane, about a vertex
   double greatest_stretch = 1;
-  double relative_energy = 0;   ///< conformal energy over Dirichlet energy: 0 conformal, 2 mirrored
+  double relative_energy = 0;  ///< conformal energy over Dirichlet energy: 0 conformal, 2 mirrored
 
   double stretch_range() const { return greatest_stretch / least_stretch; }
 };

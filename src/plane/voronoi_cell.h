@@ -1,8 +1,8 @@
 // Bounded Voronoi cells of the sites of a constrained Delaunay triangulation.
 //
-// The corners of a cell are the circumcentres of the faces around its site. A face whose circumcentre lies beyond a fixed edge
-// is blind (Tournois, Alliez and Devillers, "2D centroidal Voronoi tessellations with constraints", 2010, after Seidel): the
-// cells at its corners are cut by that edge.
+// The corners of a cell are the circumcentres of the faces around its site. A face whose circumcentre lies beyond a
+// fixed edge is blind (Tournois, Alliez and Devillers, "2D centroidal Voronoi tessellations with constraints", 2010,
+// after Seidel): the cells at its corners are cut by that edge.
 #pragma once
 
 #include "plane/delaunay.h"
@@ -35,8 +35,8 @@ struct WeightedPolygon {
   void clip(Vec2 a, Vec2 b);
 };
 
-/// The cell of a site inside the domain (no fixed edge may end there). The weight is `site_weight` at sites, linear over faces. Of a
-/// site with more than 32 faces, only as many are looked at.
+/// The cell of a site inside the domain (no fixed edge may end there). The weight is `site_weight` at sites, linear
+/// over faces. Of a site with more than 32 faces, only as many are looked at.
 void make_cell(const PlaneTriangulation& p, const CellCorners& corners, Span<const double> site_weight, VertexId site,
                WeightedPolygon& cell);
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t most_local_vertices = 65535;
 constexpr double overlap_per_split = 0.9;
-constexpr std::uint8_t most_splits = 5;
+constexpr std::uint8_t most_core_splits = 5;
 
 }  // namespace
 
@@ -87,7 +87,7 @@ Status MakeFrames::step(Arena& arena) {
   const std::uint8_t depth = depth_[core[0u]];
   bool good = false;
   ISOLOD_TRY(try_map(core, depth, good, arena));
-  if (!good && core.count > 1 && depth < most_splits) {
+  if (!good && core.count > 1 && depth < most_core_splits) {
     for (FaceId f : core) depth_[f] = static_cast<std::uint8_t>(depth + 1);
     // Each try has stamped its faces with this number; the next one must not take them for its own.
     for (FaceId f : reached_) member_[f] = UINT32_MAX;

@@ -1,9 +1,10 @@
 // Overlapping charts: maps in which a sample sees its whole star.
 //
-// The paper's section 7 names what is needed; Surazhsky, Alliez and Gotsman, "Isotropic remeshing of surfaces: a local parameterization
-// approach" (2003), is the idea. The faces are partitioned into cores; a frame is a core and an overlap of a few wished edge
-// lengths around it, flattened whole. A sample's home is the frame whose core holds its face. Feature lines are barriers: no
-// frame reaches over one. A frame whose map fails is split, and its parts overlap less.
+// The paper's section 7 names what is needed; Surazhsky, Alliez and Gotsman, "Isotropic remeshing of surfaces: a local
+// parameterization approach" (2003), is the idea. The faces are partitioned into cores; a frame is a core and an
+// overlap of a few wished edge lengths around it, flattened whole. A sample's home is the frame whose core holds its
+// face. Feature lines are barriers: no frame reaches over one. A frame whose map fails is split, and its parts overlap
+// less.
 #pragma once
 
 #include "atlas/chart.h"
@@ -27,13 +28,15 @@ struct Frames {
 };
 
 struct FrameOptions {
-  double line_rate = 0;          ///< R_f
+  double line_rate = 0;  ///< R_f
   double samples_per_core = 60;
-  double overlap = 3;            ///< wished edge lengths
-  FlattenOptions flatten{1e4, 1.06, 0.05, 1.2, 2};  ///< the weight corrects the stretch; the rim of an overlap does not matter
+  double overlap = 3;  ///< wished edge lengths
+  FlattenOptions flatten{1e4, 1.06, 0.05, 1.2,
+                         2};  ///< the weight corrects the stretch; the rim of an overlap does not matter
 };
 
-/// A stage: begin, step until done, finish. Results: 4 bytes a face of the surface, and 10 a face and 12 a vertex of every frame.
+/// A stage: begin, step until done, finish. Results: 4 bytes a face of the surface, and 10 a face and 12 a vertex of
+/// every frame.
 class MakeFrames {
  public:
   Status begin(const Surface& surface, const FrameOptions& options, Arena& arena);

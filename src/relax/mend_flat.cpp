@@ -7,7 +7,8 @@ inline namespace v1 {
 
 namespace {
 
-/// A tenth of the way to a corner of its face that changes with the sample and the round, so that two never go together for long.
+/// A tenth of the way to a corner of its face that changes with the sample and the round, so that two never go together
+/// for long.
 void push(SurfacePlace& place, std::uint32_t corner) {
   double w[3] = {1 - place.weight1 - place.weight2, place.weight1, place.weight2};
   for (std::uint32_t k = 0; k < 3; ++k) w[k] = 0.85 * w[k] + 0.05 / 3 + (k == corner ? 0.1 : 0);

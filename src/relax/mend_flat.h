@@ -1,7 +1,8 @@
 // The last resort against faces without area.
 //
-// Where no map held a star, two samples may have come down on one place, or three on one straight line. A free sample of such a face
-// is pushed within its face of the surface; where all three are held, the face's longest side is flipped.
+// Where no map held a star, two samples may have come down on one place, or three on one straight line. A free sample
+// of such a face is pushed within its face of the surface; where all three are held, the face's longest side is
+// flipped.
 #pragma once
 
 #include "mesh/triangulation.h"

@@ -43,8 +43,8 @@ struct Relaxation::Ring {
   }
 };
 
-Status Relaxation::begin(const Surface& surface, const Frames& frames, Triangulation& mesh,
-                         const Samples& samples, const RelaxOptions& options, Arena& arena) {
+Status Relaxation::begin(const Surface& surface, const Frames& frames, Triangulation& mesh, const Samples& samples,
+                         const RelaxOptions& options, Arena& arena) {
   surface_ = &surface;
   frames_ = &frames;
   mesh_ = &mesh;
@@ -70,7 +70,8 @@ Status Relaxation::begin(const Surface& surface, const Frames& frames, Triangula
   return {};
 }
 
-/// Where the star reaches out of the frame that holds its core, the frames of the neighbours are tried, one an iteration.
+/// Where the star reaches out of the frame that holds its core, the frames of the neighbours are tried, one an
+/// iteration.
 std::uint32_t Relaxation::home(SampleId s) const {
   SampleId host = s;
   std::uint32_t k = 0;
@@ -164,8 +165,8 @@ void Relaxation::move(VertexId v, RelaxReport& report) {
   }
 }
 
-/// A sample that no frame holds with its star goes half the way to the mean of its neighbours, where that does not turn a face
-/// against the surface more than it was.
+/// A sample that no frame holds with its star goes half the way to the mean of its neighbours, where that does not turn
+/// a face against the surface more than it was.
 void Relaxation::move_in_space(VertexId v) {
   const Halfedges& mesh = mesh_->mesh;
   const Vec3 here = position_of(*surface_, samples_, sample(v));

@@ -1,9 +1,9 @@
 // Relaxation of the whole mesh in overlapping charts: moves and flips, no seams.
 //
-// All free samples get their new places from their old ones, each in the map of its home: the centroid of its bounded Voronoi
-// cell, over-relaxed. Then, frame by frame, the moves are made, shortened or dropped where a face would not stay positive, and the
-// edges are flipped where the in-circle test in the home says so. Feature edges are fixed and samples on them are held. The mesh
-// is a valid manifold with the same count after every iteration.
+// All free samples get their new places from their old ones, each in the map of its home: the centroid of its bounded
+// Voronoi cell, over-relaxed. Then, frame by frame, the moves are made, shortened or dropped where a face would not
+// stay positive, and the edges are flipped where the in-circle test in the home says so. Feature edges are fixed and
+// samples on them are held. The mesh is a valid manifold with the same count after every iteration.
 #pragma once
 
 #include "isolod/options.h"
@@ -62,13 +62,13 @@ class Relaxation {
   Samples samples_;
   RelaxOptions options_;
   FrameGround ground_;
-  Span<std::uint32_t> start_;    // per frame, one more: its part of `resident_`
+  Span<std::uint32_t> start_;  // per frame, one more: its part of `resident_`
   Span<SampleId> free_, resident_;
   Span<Vec2> target_;
-  Span<Sight> sight_;            // per sample
+  Span<Sight> sight_;  // per sample
   std::uint32_t look_ = 0;
   Span<std::uint8_t> has_target_;
-  Span<std::uint8_t> guest_;     // per sample: 0 at home in its core's frame, k in that of its k-th neighbour
+  Span<std::uint8_t> guest_;  // per sample: 0 at home in its core's frame, k in that of its k-th neighbour
 };
 
 }  // namespace v1

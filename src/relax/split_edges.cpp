@@ -40,8 +40,8 @@ bool place_middle(const FrameGround& ground, const Samples& samples, SampleId a,
   return true;
 }
 
-/// Places all middles, frame by frame, each edge in the frame of one of its ends; what fits none is brought down from the
-/// middle of its chord.
+/// Places all middles, frame by frame, each edge in the frame of one of its ends; what fits none is brought down from
+/// the middle of its chord.
 Status place_middles(const Surface& surface, const Frames& frames, const Halfedges& mesh, const Samples& old,
                      const Middles& middles, Samples& samples, Arena& arena) {
   FrameGround ground;
@@ -161,7 +161,8 @@ FaceId heaviest_face(const Surface& surface, const Halfedges& mesh, const Sample
   return heaviest;
 }
 
-/// The middle of a face of the mesh, in the frame of its first corner; brought down from space where the frame does not hold it.
+/// The middle of a face of the mesh, in the frame of its first corner; brought down from space where the frame does not
+/// hold it.
 SurfacePlace middle_of(const Surface& surface, FrameGround& ground, const Frames& frames, const Halfedges& mesh,
                        const Samples& samples, FaceId f) {
   const SurfacePlace& corner = samples.place[SampleId{mesh.origin[halfedge(f, 0)].value}];

@@ -1,7 +1,7 @@
 // The result's triangles in their canonical order.
 //
-// Each begins with its lowest vertex and they are sorted by their first, then their second vertex, so that two results are the same
-// mesh over the same vertices exactly when their bytes are.
+// Each begins with its lowest vertex and they are sorted by their first, then their second vertex, so that two results
+// are the same mesh over the same vertices exactly when their bytes are.
 #pragma once
 
 #include "mesh/halfedge.h"

@@ -71,7 +71,8 @@ Status Stitch::pair_seams(Arena& arena) {
   const ScratchScope scope(arena);
   Halfedges& mesh = out_.mesh;
   Span<Edge> sides;
-  ISOLOD_TRY(sort_edges(mesh, [&](HalfedgeId h) { return mesh.is_boundary(h); }, sides, arena));
+  ISOLOD_TRY(sort_edges(
+      mesh, [&](HalfedgeId h) { return mesh.is_boundary(h); }, sides, arena));
   for (std::size_t i = 0; i + 1 < sides.count; ++i) {
     const HalfedgeId g = sides[i].halfedge, h = sides[i + 1].halfedge;
     if (!same_ends(sides[i], sides[i + 1]) || mesh.origin[g] == mesh.origin[h]) continue;
@@ -88,7 +89,8 @@ Status Stitch::mend_doubled_edges(Arena& arena) {
   for (std::uint32_t round = 0; round < most_rounds; ++round) {
     const ScratchScope scope(arena);
     Span<Edge> edges;
-    ISOLOD_TRY(sort_edges(mesh, [&](HalfedgeId h) { return mesh.is_boundary(h) || h < mesh.twin[h]; }, edges, arena));
+    ISOLOD_TRY(sort_edges(
+        mesh, [&](HalfedgeId h) { return mesh.is_boundary(h) || h < mesh.twin[h]; }, edges, arena));
     std::uint32_t doubled = 0;
     for (std::size_t i = 0; i < edges.count; ++i) {
       const bool loop = edges[i].low == edges[i].high;

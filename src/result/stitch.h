@@ -1,8 +1,8 @@
 // The charts' triangulations joined into one mesh.
 //
-// Paper, section 4.5. Twins are merged by identity: the copies of a seam sample carry the same number in both charts, so the sides
-// of a seam are paired by their two numbers and never by distance. What is left to mend are edges that two charts, or a chart
-// that meets itself, have drawn between the same two samples: one of them is flipped.
+// Paper, section 4.5. Twins are merged by identity: the copies of a seam sample carry the same number in both charts,
+// so the sides of a seam are paired by their two numbers and never by distance. What is left to mend are edges that two
+// charts, or a chart that meets itself, have drawn between the same two samples: one of them is flipped.
 #pragma once
 
 #include "mesh/triangulation.h"
@@ -13,14 +13,15 @@ inline namespace v1 {
 
 class Stitch {
  public:
-  /// Room for exactly `face_count` faces over `sample_count` samples: the origins as results, 9 bytes a halfedge of scratch.
+  /// Room for exactly `face_count` faces over `sample_count` samples: the origins as results, 9 bytes a halfedge of
+  /// scratch.
   Status begin(std::size_t face_count, std::size_t sample_count, Arena& arena);
 
   /// Takes over the faces of one chart.
   Status add(const ChartSites& sites);
 
-  /// Pairs the sides of seams, mends doubled edges. `lines` are fixed: they are never flipped. Fails with invalid_result where
-  /// a doubled edge cannot be mended. Scratch 16 bytes a halfedge.
+  /// Pairs the sides of seams, mends doubled edges. `lines` are fixed: they are never flipped. Fails with
+  /// invalid_result where a doubled edge cannot be mended. Scratch 16 bytes a halfedge.
   Status finish(Arena& arena);
 
   Triangulation& mesh() { return out_; }

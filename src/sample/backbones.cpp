@@ -61,9 +61,7 @@ class Chainer {
     } while (h != first);
   }
 
-  bool is_open_line(HalfedgeId h) const {
-    return surface_.line[h] != line_none && backbones_.place[h] == UINT32_MAX;
-  }
+  bool is_open_line(HalfedgeId h) const { return surface_.line[h] != line_none && backbones_.place[h] == UINT32_MAX; }
 
   void trace_from(VertexId node) {
     const HalfedgeId first = surface_.mesh.outgoing[node];

@@ -34,16 +34,16 @@ DensityIntegrals integrate_density(const Surface& surface) {
     if (t.is_none()) sum.boundary += d;
   }
   for (std::uint8_t c : surface.corner) sum.corner_count += c;
-  sum.euler_characteristic = static_cast<std::int64_t>(mesh.vertex_count()) - edge_count +
-                             static_cast<std::int64_t>(mesh.face_count());
+  sum.euler_characteristic =
+      static_cast<std::int64_t>(mesh.vertex_count()) - edge_count + static_cast<std::int64_t>(mesh.face_count());
   return sum;
 }
 
 Rates solve_rates(const DensityIntegrals& integrals, std::uint32_t vertex_count, Calibration calibration) {
   const bool as_printed = calibration == Calibration::paper;
-  const double constant = static_cast<double>(vertex_count) -
-                          (as_printed ? static_cast<double>(integrals.corner_count)
-                                      : static_cast<double>(integrals.euler_characteristic));
+  const double constant =
+      static_cast<double>(vertex_count) -
+      (as_printed ? static_cast<double>(integrals.corner_count) : static_cast<double>(integrals.euler_characteristic));
   if (!(constant > 0)) return {};
   const double quadratic = 2 / root_of_three * integrals.surface;
   const double half_linear = as_printed ? 0.5 * integrals.lines : 0.25 * integrals.boundary;

@@ -1,8 +1,9 @@
 // From the budget to sampling rates: how many samples a unit of density is worth, on the surface and on lines.
 //
-// Paper, section 3.2. Both rates hang together through the equilateral triangle, R_s = 2 R_f^2 / sqrt(3), and the wished
-// edge length is 1 / (R_f d_f) with d_f = sqrt(d_s). Eq. (1) as printed counts the surface beside a feature twice. The default
-// counts triangles instead: F = 2 V - B - 2 chi, each with half a unit of density, so V = R_s * D + R_f * D_b / 2 + chi.
+// Paper, section 3.2. Both rates hang together through the equilateral triangle, R_s = 2 R_f^2 / sqrt(3), and the
+// wished edge length is 1 / (R_f d_f) with d_f = sqrt(d_s). Eq. (1) as printed counts the surface beside a feature
+// twice. The default counts triangles instead: F = 2 V - B - 2 chi, each with half a unit of density, so V = R_s * D +
+// R_f * D_b / 2 + chi.
 #pragma once
 
 #include "isolod/options.h"
@@ -33,7 +34,8 @@ double edge_density(const Surface& surface, HalfedgeId h);
 
 DensityIntegrals integrate_density(const Surface& surface);
 
-/// The positive root of the calibration's quadratic; rates of zero where the budget does not even hold the constant part.
+/// The positive root of the calibration's quadratic; rates of zero where the budget does not even hold the constant
+/// part.
 Rates solve_rates(const DensityIntegrals& integrals, std::uint32_t vertex_count, Calibration calibration);
 
 }  // namespace v1

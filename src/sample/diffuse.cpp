@@ -44,8 +44,8 @@ void take_node(const Surface& surface, VertexId v, Span<double> wish) {
   wish[face(first)] += taken - angle / two_pi;
 }
 
-/// Lets faces beside lines, which owe more than they carry, take it from the nearest faces that carry some, breadth first and never
-/// over a feature. Else their debt would flow down the tree and starve what lies there.
+/// Lets faces beside lines, which owe more than they carry, take it from the nearest faces that carry some, breadth
+/// first and never over a feature. Else their debt would flow down the tree and starve what lies there.
 class LocalDebts {
  public:
   Status begin(const Surface& surface, Span<double> wish, Arena& arena) {
@@ -86,14 +86,16 @@ class LocalDebts {
     wish_[debtor] = -debt;
   }
 
-  static constexpr std::size_t most_faces = 4096;  // a search that finds nothing within so many leaves the rest to the tree
+  static constexpr std::size_t most_faces =
+      4096;  // a search that finds nothing within so many leaves the rest to the tree
   const Surface* surface_ = nullptr;
   Span<double> wish_;
   Span<FaceId> queue_, seen_by_;
 };
 
-/// Faces depth first, component after component, with the side towards the parent (none at a root). Depth first, so that the tree is
-/// mostly one long way with short branches: breadth first, every branch would bring its rounding to the root.
+/// Faces depth first, component after component, with the side towards the parent (none at a root). Depth first, so
+/// that the tree is mostly one long way with short branches: breadth first, every branch would bring its rounding to
+/// the root.
 struct SpanningTree {
   Span<FaceId> order;
   Span<HalfedgeId> to_parent;

@@ -13,7 +13,7 @@ constexpr double least_spacing = 0.6;        // of the backbone's mean, in densi
 constexpr double clear_gain = 0.75;          // of the deviation: what the new chords may have at most
 constexpr std::int64_t farthest_fixed = 16;  // samples to either side among which a fixed one is looked for
 constexpr double wide_spacing = 1.4;         // of the mean: from here on a segment may be given one interval more
-constexpr std::uint32_t most_rounds = 8;
+constexpr std::uint32_t most_keep_rounds = 8;
 
 /// A sample or node on the track. Masses ascend; on a closed track they lie within one turn, which may begin below 0.
 struct Point {
@@ -73,7 +73,7 @@ class ShapeKeeper {
     load(places);
     double least = measure();
     std::uint32_t best_round = 0;
-    for (std::uint32_t round = 1; round <= most_rounds && pull_all(); ++round) {
+    for (std::uint32_t round = 1; round <= most_keep_rounds && pull_all(); ++round) {
       cut();
       balance();
       spread();

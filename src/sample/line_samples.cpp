@@ -127,8 +127,8 @@ class SkeletonDiffusion {
     return wish - FixedCount{wishes_[b].granted} * one_sample;
   }
 
-  /// Shares the error among the open ways on at the end of `b` and returns the first of them, or none: then it stays to be
-  /// teleported.
+  /// Shares the error among the open ways on at the end of `b` and returns the first of them, or none: then it stays to
+  /// be teleported.
   std::uint32_t pass_on(std::uint32_t b, FixedCount& error) {
     const std::uint32_t node = wishes_[b].ends.last;
     if (node == UINT32_MAX) return UINT32_MAX;

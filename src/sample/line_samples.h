@@ -1,8 +1,8 @@
 // Samples along backbones: how many each gets, and where they sit.
 //
-// Paper, section 3.4: the wish of a backbone is R_f times its density; it is rounded to a whole number of intervals, and the error
-// flows on to the backbones that are connected to its end, shared equally, or to the next backbone where there are none.
-// Inside a backbone the same flow along its edges puts samples at equal steps of density.
+// Paper, section 3.4: the wish of a backbone is R_f times its density; it is rounded to a whole number of intervals,
+// and the error flows on to the backbones that are connected to its end, shared equally, or to the next backbone where
+// there are none. Inside a backbone the same flow along its edges puts samples at equal steps of density.
 #pragma once
 
 #include "base/fixed_point.h"
@@ -28,9 +28,9 @@ struct LineSamples {
   }
 };
 
-/// Distributes samples over all backbones: about line_rate * density each, never fewer than keep the surface's topology, at most
-/// `room` in all. Fails with budget_too_small and the number of samples that is needed at least where even the least do
-/// not fit. Results: 4 bytes a backbone, 16 a sample. O(edges) time.
+/// Distributes samples over all backbones: about line_rate * density each, never fewer than keep the surface's
+/// topology, at most `room` in all. Fails with budget_too_small and the number of samples that is needed at least where
+/// even the least do not fit. Results: 4 bytes a backbone, 16 a sample. O(edges) time.
 Status sample_lines(const Surface& surface, const Backbones& backbones, double line_rate, std::uint32_t room,
                     LineSamples& samples, Arena& arena);
 

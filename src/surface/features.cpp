@@ -67,8 +67,7 @@ Status mark_tags(Surface& surface, Arena& arena) {
   ISOLOD_TRY(arena.scratch(surface.source_vertex.count, copies.copies));
   ISOLOD_TRY(arena.scratch(surface.source_vertex.count, vertices));
   for (VertexId v : Ids<VertexId>(vertices.count)) vertices[v] = v;
-  counting_sort<VertexId>(vertices, copies.copies, copies.start,
-                          [&](VertexId v) { return surface.source_vertex[v]; });
+  counting_sort<VertexId>(vertices, copies.copies, copies.start, [&](VertexId v) { return surface.source_vertex[v]; });
   for (std::size_t e = 0; e < view.tagged_edge_count; ++e) {
     const std::uint32_t a = view.tagged_edges[2 * e], b = view.tagged_edges[2 * e + 1];
     if (a >= view.vertex_count || b >= view.vertex_count) return fail(Status::index_out_of_range, Element::edge, e);

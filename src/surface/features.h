@@ -2,7 +2,8 @@
 //
 // Paper, section 2. An edge is a feature when it has one face, when its faces' normals differ by more than the feature
 // angle, when the caller tagged it, or when its faces have two materials. A vertex is a corner when the number of its
-// feature edges is neither 0 nor 2 (an end, 1, is a dart) or when the line through it turns by more than the corner angle.
+// feature edges is neither 0 nor 2 (an end, 1, is a dart) or when the line through it turns by more than the corner
+// angle.
 #pragma once
 
 #include "mesh/surface.h"

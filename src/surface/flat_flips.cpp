@@ -23,7 +23,8 @@ bool is_flat(const Quad& q, double tolerance) {
 
 bool is_not_delaunay(const Quad& q) { return sum_over_straight(angle_at(q.c, q.a, q.b), angle_at(q.d, q.a, q.b)); }
 
-/// Whether both triangles of the other diagonal have area on the same side; the smaller height may not shrink below rounding.
+/// Whether both triangles of the other diagonal have area on the same side; the smaller height may not shrink below
+/// rounding.
 bool is_convex(const Quad& q, double tolerance) {
   const Vec3 normal = cross(q.b - q.a, q.c - q.a);
   const Vec3 first = cross(q.b - q.d, q.c - q.d), second = cross(q.a - q.c, q.d - q.c);

@@ -1,8 +1,8 @@
 // Turns the needles of flat regions into well-shaped triangles without moving the surface.
 //
-// CAD triangulations fill planes with needles, and maps of needles converge slowly or fold. Where two triangles lie in one plane,
-// within the rounding of the input, the edge between them may run either way: it is flipped to be Delaunay (opposite
-// angles that sum to at most two right angles). Lines stay.
+// CAD triangulations fill planes with needles, and maps of needles converge slowly or fold. Where two triangles lie in
+// one plane, within the rounding of the input, the edge between them may run either way: it is flipped to be Delaunay
+// (opposite angles that sum to at most two right angles). Lines stay.
 #pragma once
 
 #include "mesh/surface.h"
@@ -10,12 +10,12 @@
 namespace isolod {
 inline namespace v1 {
 
-/// How far an apex may lie from the plane of the triangle across the edge: 1e-7 of the diagonal of the bounding box, what 32-bit
-/// coordinates leave open.
+/// How far an apex may lie from the plane of the triangle across the edge: 1e-7 of the diagonal of the bounding box,
+/// what 32-bit coordinates leave open.
 double flatness_tolerance(const Surface& surface);
 
-/// Flips edges of flat regions in sweeps, at most `most_sweeps`, until all are Delaunay. Wedge densities go with their corners. O(n)
-/// time a sweep, no memory.
+/// Flips edges of flat regions in sweeps, at most `most_sweeps`, until all are Delaunay. Wedge densities go with their
+/// corners. O(n) time a sweep, no memory.
 void flip_flat_edges(Surface& surface, double tolerance, std::uint32_t most_sweeps);
 
 }  // namespace v1

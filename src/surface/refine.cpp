@@ -65,7 +65,8 @@ void split_face(const Surface& surface, FaceId f, const Midpoints& middle, Draft
     add_face(draft, source, {m[0], c[1], c[2]}, {l[0], l[1], 0});
   } else if (split_count == 2) {
     add_face(draft, source, {m[0], c[1], m[1]}, {l[0], l[1], 0});
-    const Vec3 p0 = surface.position(c[0].vertex), p1 = surface.position(c[1].vertex), p2 = surface.position(c[2].vertex);
+    const Vec3 p0 = surface.position(c[0].vertex), p1 = surface.position(c[1].vertex),
+               p2 = surface.position(c[2].vertex);
     if (distance(p0, midpoint(p1, p2)) <= distance(midpoint(p0, p1), p2)) {
       add_face(draft, source, {c[0], m[0], m[1]}, {l[0], 0, 0});
       add_face(draft, source, {c[0], m[1], c[2]}, {0, l[1], l[2]});

@@ -1,8 +1,9 @@
 // Splits the triangles of a coarse input, flat, until none is much larger than the wished spacing.
 //
 // Charts then have an inside, seams can run where they should, and 46 triangles can carry 20,000 samples. Edges are
-// split at their midpoints in rounds, each face by the pattern of its split edges, so that the mesh stays conforming; before
-// each round the needles of flat regions are flipped away. The surface does not change. Lines, wedge densities and the caller's triangle numbers are handed on.
+// split at their midpoints in rounds, each face by the pattern of its split edges, so that the mesh stays conforming;
+// before each round the needles of flat regions are flipped away. The surface does not change. Lines, wedge densities
+// and the caller's triangle numbers are handed on.
 #pragma once
 
 #include "mesh/surface.h"

@@ -58,24 +58,24 @@ def judge_lines(case):
     return verdict("lines", not wrong, label(case), ", ".join(wrong))
 
 
-def crossing_kinds(found):
-    """How many crossing pairs are folds, between near sheets, and neither; all that compare did not see are neither."""
-    compared = found.get("kinds", {})
-    folded, between = (compared.get("crossing_pairs_" + kind, 0) for kind in ("folded", "between_sheets"))
-    return folded, between, max(compared.get("crossing_pairs_elsewhere", 0), found["crossings"][1] - folded - between)
-
-
-def crossing_words(found):
-    """`7 between sheets`, or nothing where nothing crosses."""
-    names = zip(crossing_kinds(found), ("folded", "between sheets", "elsewhere"))
-    return ", ".join(f"{count} {name}" for count, name in names if count) if found["crossings"][1] else ""
+def crossing_words(case):
+    """`0>7 (7 between sheets)`; where the judge that rounds counts otherwise, its numbers too."""
+    kinds, rounded = case.result["kinds"], case.result.get("rounded")
+    if "crossings_remeshed" not in kinds:
+        return "not measured"
+    exact = (kinds["crossings_original"], kinds["crossings_remeshed"])
+    words = [f"{kinds['crossing_pairs_' + kind]} {kind.replace('_', ' ')}"
+             for kind in ("folded", "between_sheets", "elsewhere") if kinds["crossing_pairs_" + kind]]
+    if rounded and rounded != exact:
+        words.append(f"rounded {rounded[0]}>{rounded[1]}")
+    return f"{exact[0]}>{exact[1]}" + (f" ({', '.join(words)})" if words else "")
 
 
 def judge_crossings(case):
-    before, after = case.result["crossings"]
-    folded, _, elsewhere = crossing_kinds(case.result)
-    return verdict("crossings", after <= before or folded + elsewhere == 0, label(case),
-                   f"{before} became {after} ({crossing_words(case.result)})")
+    kinds = case.result["kinds"]
+    good = "crossings_remeshed" in kinds and (kinds["crossings_remeshed"] <= kinds["crossings_original"] or
+                                              kinds["crossing_pairs_folded"] + kinds["crossing_pairs_elsewhere"] == 0)
+    return verdict("crossings", good, label(case), crossing_words(case))
 
 
 def judge_topology(case, original, mesh):
@@ -161,10 +161,7 @@ def table_row(case):
         a, b, c = judged["original"], judged["remeshed"], judged["compare"]
         manifold = b["edge_manifold"] and b["vertex_manifold"] and b["consistently_oriented"]
         same = all(a[key] == b[key] for key in ("genus", "boundary_loops", "components"))
-        cross = ""
-        if "crossings" in found:
-            before, after = found["crossings"]
-            cross = f"{before}>{after}" + (f" ({crossing_words(found)})" if after else "")
+        cross = crossing_words(case) if "kinds" in found else ""
         lines = found.get("own", {}).get("compare", {}).get("line_worst_ratio") if {"sharp", "boundary"} & case.bars else None
         row += [str(b["vertices"]), "yes" if manifold else "NO", "same" if same else "NO", str(b["degenerate_triangles"]),
                 str(b["duplicate_faces"]), str(b["isolated_vertices"]), f"{b['q_mean']:.3f}",

@@ -83,7 +83,8 @@ struct Crossings {
   std::vector<std::array<std::uint32_t, 2>> pairs{};  ///< those apart, the lower triangle first, in order
 };
 
-/// Pairs of triangles where an edge of the one passes through the other. Touching is not crossing.
+/// Pairs of triangles where an edge of the one passes through the inside of the other, decided exactly. Touching is not
+/// crossing. Exact while products of three coordinates neither overflow nor lose bits to underflow.
 Crossings crossings(const Surface& surface);
 
 // ---- measure_sheets.cpp
@@ -98,7 +99,7 @@ struct CrossingPair {
   std::uint32_t first = 0, second = 0;  ///< triangles of the result
   CrossingKind kind = CrossingKind::elsewhere;
   std::array<double, 3> place{};  ///< between their centroids
-  double spacing = 0;             ///< mean length of the edges that meet their corners
+  double spacing = 0;             ///< median length of the edges that meet their corners
   double along = 0;               ///< distance over the result in spacings; infinite where it is much longer than four
   double sheets = 0;  ///< distance of the original's sheets there in spacings; infinite where it is not under three
 };

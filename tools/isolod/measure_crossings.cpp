@@ -1,7 +1,9 @@
 // Pairs of triangles that pass through each other: every edge of the one against the other, by signs of volumes.
 //
-// A volume counts as zero where rounding could have made its sign, so that triangles of one plane, and triangles that
-// only touch, do not cross.
+// The signs are exact. In doubles alone, triangles of one oblique plane, however far from each other, seem to cross
+// once in some thousand pairs: all their volumes are rounding, with any signs. Where rounding may have decided a sign,
+// the volume is summed without any: Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+// predicates", 1997, theorem 10 (grow expansion), over the 24 products of three coordinates.
 #include <algorithm>
 
 #include "measure_parts.h"
@@ -10,7 +12,55 @@ namespace measure {
 
 namespace {
 
-/// The sign of the volume of a b c d, or 0 where rounding may have decided it.
+/// A sum of doubles that overlap in no bit, the smallest first: its last one has the sign of the whole.
+class ExactSum {
+ public:
+  void add(double x) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double sum = x + parts_[i], of_part = sum - x;
+      const double lost = (x - (sum - of_part)) + (parts_[i] - of_part);
+      if (lost != 0) parts_[kept++] = lost;
+      x = sum;
+    }
+    if (x != 0) parts_[kept++] = x;
+    count_ = kept;
+  }
+  void add_product(double a, double b, double c) {
+    const double high = a * b, low = std::fma(a, b, -high);
+    for (double part : {high, low}) {
+      const double product = part * c;
+      add(std::fma(part, c, -product));
+      add(product);
+    }
+  }
+  int sign() const { return count_ == 0 ? 0 : parts_[count_ - 1] > 0 ? 1 : -1; }
+
+ private:
+  double parts_[96];  // 24 products of four doubles each
+  std::size_t count_ = 0;
+};
+
+/// The determinant of p q r.
+void add_determinant(ExactSum& sum, Vector p, Vector q, Vector r) {
+  sum.add_product(p.x, q.y, r.z);
+  sum.add_product(p.y, q.z, r.x);
+  sum.add_product(p.z, q.x, r.y);
+  sum.add_product(-p.x, q.z, r.y);
+  sum.add_product(-p.y, q.x, r.z);
+  sum.add_product(-p.z, q.y, r.x);
+}
+
+int exact_volume_sign(Vector a, Vector b, Vector c, Vector d) {
+  ExactSum sum;
+  add_determinant(sum, b, c, d);
+  add_determinant(sum, a, d, c);
+  add_determinant(sum, a, b, d);
+  add_determinant(sum, a, c, b);
+  return sum.sign();
+}
+
+/// The sign of the volume of a b c d.
 int volume_sign(Vector a, Vector b, Vector c, Vector d) {
   const Vector u = b - a, v = c - a, w = d - a;
   const double terms[6] = {u.x * v.y * w.z, u.y * v.z * w.x, u.z * v.x * w.y,
@@ -20,7 +70,7 @@ int volume_sign(Vector a, Vector b, Vector c, Vector d) {
     sum += i < 3 ? terms[i] : -terms[i];
     size += std::fabs(terms[i]);
   }
-  if (std::fabs(sum) <= 4e-15 * size) return 0;
+  if (std::fabs(sum) <= 4e-15 * size) return exact_volume_sign(a, b, c, d);
   return sum > 0 ? 1 : -1;
 }
 

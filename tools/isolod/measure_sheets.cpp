@@ -25,7 +25,7 @@ bool before(Vector a, Vector b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x,
 class Neighbourhood {
  public:
   Neighbourhood(const BoxTree& tree, Vector centre, double radius, double step)
-      : tree_(tree), centre_(centre), radius_(radius), step_(step) {
+      : centre_(centre), radius_(radius), step_(step) {
     Box box;
     box.include(centre - Vector{radius, radius, radius});
     box.include(centre + Vector{radius, radius, radius});
@@ -134,7 +134,6 @@ class Neighbourhood {
     }
   }
 
-  const BoxTree& tree_;
   Vector centre_;
   double radius_, step_;
   std::vector<std::uint32_t> triangles_;
@@ -176,17 +175,28 @@ double sheet_distance(const BoxTree& tree, Vector p, double spacing) {
   return least;
 }
 
-/// For each vertex the sum of the lengths of its edges, and how many there are.
-std::vector<std::pair<double, double>> edge_sums(const Surface& s) {
-  std::vector<std::pair<double, double>> sums(s.vertex_count);
+/// The lengths of the edges at each vertex.
+std::vector<std::vector<double>> edge_lengths(const Surface& s) {
+  std::vector<std::vector<double>> lengths(s.vertex_count);
   for (const Edge& e : EdgeTable(s).edges) {
-    const double size = length(position(s, e.b) - position(s, e.a));
-    for (std::uint32_t v : {e.a, e.b}) {
-      sums[v].first += size;
-      sums[v].second += 1;
+    for (std::uint32_t v : {e.a, e.b}) lengths[v].push_back(length(position(s, e.b) - position(s, e.a)));
+  }
+  return lengths;
+}
+
+/// The median, so that a stretched triangle does not widen the spacing that it is judged by.
+double spacing_around(const Surface& s, const std::array<std::uint32_t, 2>& pair,
+                      const std::vector<std::vector<double>>& lengths) {
+  std::vector<double> all;
+  for (std::uint32_t t : pair) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::vector<double>& more = lengths[corner(s, t, k)];
+      all.insert(all.end(), more.begin(), more.end());
     }
   }
-  return sums;
+  const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;  // of two triangles that cross at least one has edges
 }
 
 CrossingKind kind_of(const CrossingPair& pair) {
@@ -200,19 +210,12 @@ CrossingKinds crossing_kinds(const Surface& original, const Surface& result, con
   CrossingKinds kinds;
   if (of_result.pairs.empty()) return kinds;
   const BoxTree of_original = triangle_tree(original), tree = triangle_tree(result);
-  const auto sums = edge_sums(result);
+  const auto lengths = edge_lengths(result);
   for (const auto& [first, second] : of_result.pairs) {
     CrossingPair pair;
     pair.first = first;
     pair.second = second;
-    double sum = 0, count = 0;
-    for (std::uint32_t t : {first, second}) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        sum += sums[corner(result, t, k)].first;
-        count += sums[corner(result, t, k)].second;
-      }
-    }
-    pair.spacing = count > 0 ? sum / count : 0;
+    pair.spacing = spacing_around(result, {first, second}, lengths);
     const Vector a = centroid(tree.primitives()[first]), b = centroid(tree.primitives()[second]);
     const Vector place = (a + b) * 0.5;
     pair.place = {place.x, place.y, place.z};

@@ -45,9 +45,8 @@ struct One {
 
 /// A middle line at x = 0.5, from the bottom to `top`.
 support::Edges middle_line(double top) {
-  return support::edges_where(support::square_grid(24), [=](Vec3 a, Vec3 b) {
-    return a.x == 0.5 && b.x == 0.5 && a.y <= top && b.y <= top;
-  });
+  return support::edges_where(support::square_grid(24),
+                              [=](Vec3 a, Vec3 b) { return a.x == 0.5 && b.x == 0.5 && a.y <= top && b.y <= top; });
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ LevelPlan plan_levels(std::uint32_t vertex_count, std::int64_t euler_characteris
   for (std::uint32_t splits = 1; splits <= most_splits; ++splits) {
     const std::int64_t wider = 4 * factor;
     const std::int64_t coarser = (std::int64_t{vertex_count} + (wider - 1) * euler_characteristic) / wider;
-    if (coarser < std::int64_t{least_first} || coarser - euler_characteristic <= 0) break;
+    if (coarser < 1 || coarser < std::int64_t{least_first} || coarser - euler_characteristic <= 0) break;
     factor = wider;
     first = coarser;
     plan.splits = splits;

@@ -1,0 +1,183 @@
+// The next level: counts, connectivity, and where the new samples are.
+#include "relax/split_edges.h"
+
+#include <algorithm>
+
+#include <string>
+
+#include "pipeline/state.h"
+#include "relax/relaxation.h"
+#include "support/plane_shapes.h"
+#include "support/stages.h"
+
+using namespace isolod;
+
+namespace {
+
+/// A relaxed coarse mesh with its frames.
+struct Coarse {
+  Coarse(const std::string& name, std::size_t triangles, std::uint32_t count)
+      : shape(support::made(name, triangles)), view(support::view_of(shape)) {
+    REQUIRE(remesher.begin(view, support::with_vertices(count), {}, block.arena).is_ok());
+    support::advance_past(remesher, "stitch");
+    s = *remesher.state();
+    mesh = s.stitch.mesh();
+    MakeFrames stage;
+    FrameOptions options;
+    options.line_rate = s.rates.line;
+    REQUIRE(stage.begin(s.surface, options, block.arena).is_ok());
+    while (!stage.done()) REQUIRE(stage.step(block.arena).is_ok());
+    REQUIRE(stage.finish(frames, block.arena).is_ok());
+    const ScratchScope scope(block.arena);
+    Relaxation relaxation;
+    REQUIRE(relaxation.begin(s.surface, frames, mesh, s.samples, {}, block.arena).is_ok());
+    for (int i = 0; i < 8; ++i) relaxation.iterate();
+  }
+  void split(std::uint32_t spare) {
+    const std::size_t back = block.arena.mark().back;
+    REQUIRE(split_edges(s.surface, frames, spare, mesh, s.samples, block.arena).is_ok());
+    CHECK(block.arena.mark().back == back);
+  }
+  void insert(std::uint32_t count) {
+    const std::size_t back = block.arena.mark().back;
+    REQUIRE(insert_where_sparse(s.surface, frames, count, mesh, s.samples, block.arena).is_ok());
+    CHECK(block.arena.mark().back == back);
+  }
+  Vec3 at(std::uint32_t sample) const { return position_of(s.surface, s.samples, SampleId{sample}); }
+  bool is_placed(std::uint32_t sample) const {
+    const SurfacePlace& p = s.samples.place[sample];
+    return p.face.value < s.surface.mesh.face_count() && p.weight1 >= 0 && p.weight2 >= 0 &&
+           p.weight1 + p.weight2 <= 1 + 1e-15 && !s.samples.held[sample];
+  }
+
+  shapes::Shape shape;
+  MeshView view;
+  support::Block block;
+  Remesher remesher;
+  Remesher::State s;
+  Triangulation mesh;
+  Frames frames;
+};
+
+/// For each vertex of the fine mesh that was an edge: its two old ends, found from the fine mesh alone.
+std::vector<std::uint32_t> old_neighbours(const Halfedges& mesh, VertexId v, std::uint32_t old_count) {
+  std::vector<std::uint32_t> result;
+  visit_outgoing(mesh, v, [&](HalfedgeId h) {
+    if (mesh.target(h).value < old_count) result.push_back(mesh.target(h).value);
+  });
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+struct Case {
+  const char* name;
+  std::size_t triangles;
+};
+const Case cases[] = {{"sphere", 5120}, {"torus", 4000}, {"head", 3000}};
+
+}  // namespace
+
+TEST_CASE("split_edges: V + E samples, 4 F faces, the twins right, the old samples where they were") {
+  for (const Case& c : cases) {
+    CAPTURE(std::string(c.name));
+    Coarse coarse(c.name, c.triangles, 600);
+    const std::size_t v = coarse.mesh.mesh.vertex_count(), f = coarse.mesh.mesh.face_count(), e = 3 * f / 2;
+    const long euler = support::euler(coarse.mesh);
+    std::vector<std::vector<std::uint32_t>> ends;  // of the old edges
+    std::vector<std::uint32_t> valence(v, 0);
+    for (HalfedgeId h : Ids<HalfedgeId>(3 * f)) {
+      const std::uint32_t a = coarse.mesh.mesh.origin[h].value, b = coarse.mesh.mesh.target(h).value;
+      ++valence[a];
+      if (a < b) ends.push_back({a, b});
+    }
+    std::vector<Vec3> before;
+    for (std::uint32_t i = 0; i < v; ++i) before.push_back(coarse.at(i));
+    coarse.split(5);
+    const Halfedges& fine = coarse.mesh.mesh;
+    REQUIRE(fine.vertex_count() == v + e);
+    REQUIRE(coarse.s.samples.count() == v + e);
+    REQUIRE(fine.face_count() == 4 * f);
+    CHECK(support::broken(coarse.mesh) == "");
+    CHECK(support::euler(coarse.mesh) == euler);
+    std::vector<std::uint32_t> now(v + e, 0);
+    for (VertexId at : fine.origin) ++now[at.value];
+    std::vector<std::vector<std::uint32_t>> found;
+    for (std::uint32_t i = 0; i < v + e; ++i) {
+      CHECK(now[i] == (i < v ? valence[i] : 6));
+      if (i < v) CHECK(distance(coarse.at(i), before[i]) == 0);
+      if (i >= v) found.push_back(old_neighbours(fine, VertexId{i}, static_cast<std::uint32_t>(v)));
+    }
+    std::sort(ends.begin(), ends.end());
+    std::sort(found.begin(), found.end());
+    CHECK(found == ends);  // each edge has one middle, joined to its two ends
+  }
+}
+
+TEST_CASE("split_edges: middles lie inside faces of the surface, near the middles of their chords") {
+  for (const Case& c : cases) {
+    CAPTURE(std::string(c.name));
+    Coarse coarse(c.name, c.triangles, 600);
+    const std::uint32_t v = 600;
+    coarse.split(0);
+    double off = 0;
+    int far = 0, lost = 0;
+    const std::uint32_t count = static_cast<std::uint32_t>(coarse.s.samples.count());
+    for (std::uint32_t i = v; i < count; ++i) {
+      lost += !coarse.is_placed(i);
+      const std::vector<std::uint32_t> ends = old_neighbours(coarse.mesh.mesh, VertexId{i}, v);
+      REQUIRE(ends.size() == 2);
+      const Vec3 a = coarse.at(ends[0]), b = coarse.at(ends[1]);
+      const double share = distance(coarse.at(i), midpoint(a, b)) / distance(a, b);
+      off += share / (count - v);
+      far += share > 0.5;
+    }
+    CHECK(lost == 0);
+    CHECK(off < 0.05);
+    CHECK(far == 0);
+  }
+}
+
+TEST_CASE("split_edges: no face of a sphere is turned over, two levels down") {
+  Coarse coarse("sphere", 5120, 300);
+  for (int level = 0; level < 2; ++level) {
+    coarse.split(0);
+    int turned = 0;
+    for (FaceId f : Ids<FaceId>(coarse.mesh.mesh.face_count())) {
+      const auto at = [&](std::uint32_t k) { return coarse.at(coarse.mesh.mesh.origin[halfedge(f, k)].value); };
+      turned += !(dot(cross(at(1) - at(0), at(2) - at(0)), at(0)) > 0);
+    }
+    CHECK(turned == 0);
+    CHECK(support::broken(coarse.mesh) == "");
+  }
+}
+
+TEST_CASE("insert_where_sparse: as many as were asked for, valid, each in the heaviest face") {
+  for (const std::uint32_t count : {0U, 1U, 2U, 3U, 40U}) {
+    CAPTURE(count);
+    Coarse coarse("sphere", 2000, 300);
+    coarse.split(count);
+    const std::size_t v = coarse.s.samples.count(), f = coarse.mesh.mesh.face_count();
+    double heaviest = 0;
+    FaceId chosen{0};
+    for (FaceId face : Ids<FaceId>(f)) {
+      const auto at = [&](std::uint32_t k) { return coarse.at(coarse.mesh.mesh.origin[halfedge(face, k)].value); };
+      const double area = length(cross(at(1) - at(0), at(2) - at(0)));
+      if (area > heaviest) heaviest = area, chosen = face;
+    }
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t k = 0; k < 3; ++k) corners.push_back(coarse.mesh.mesh.origin[halfedge(chosen, k)].value);
+    std::sort(corners.begin(), corners.end());
+    coarse.insert(count);
+    CHECK(coarse.s.samples.count() == v + count);
+    CHECK(coarse.mesh.mesh.vertex_count() == v + count);
+    CHECK(coarse.mesh.mesh.face_count() == f + 2 * count);
+    CHECK(support::broken(coarse.mesh) == "");
+    CHECK(support::euler(coarse.mesh) == 2);
+    for (std::uint32_t i = static_cast<std::uint32_t>(v); i < v + count; ++i) CHECK(coarse.is_placed(i));
+    if (count != 1) continue;
+    const std::uint32_t added = static_cast<std::uint32_t>(v);
+    CHECK(old_neighbours(coarse.mesh.mesh, VertexId{added}, added) == corners);
+    const Vec3 middle = (1.0 / 3) * (coarse.at(corners[0]) + coarse.at(corners[1]) + coarse.at(corners[2]));
+    CHECK(distance(coarse.at(added), middle) < 0.2 * distance(coarse.at(corners[0]), coarse.at(corners[1])));
+  }
+}

@@ -717,7 +717,7 @@ TEST_CASE("repair: a vertex or an edge with very many triangles costs no more th
 
 TEST_CASE("repair: the models come out with the topology that is known of them") {
   const char* const folder = std::getenv("ISOLOD_MODELS");
-  const std::filesystem::path models = folder != nullptr ? folder : "/work/shared/models";
+  const std::filesystem::path models = folder != nullptr ? folder : ISOLOD_TEST_DIRECTORY "/../../shared/models";
   std::ifstream manifest(models / "MANIFEST.tsv");
   if (!manifest) {
     MESSAGE("no models");

@@ -74,6 +74,7 @@ void plan_run(State& s, const DensityIntegrals& integrals, std::uint32_t most_sp
 
 Status step_calibrate(State& s, bool& done, std::uint64_t& units) {
   const DensityIntegrals integrals = integrate_density(s.surface);
+  s.euler_characteristic = integrals.euler_characteristic;
   s.report.corners = integrals.corner_count;
   s.rates = solve_rates(integrals, s.options.vertex_count, s.options.calibration);
   units = face_units(s);
@@ -176,8 +177,7 @@ std::size_t result_face_count(const State& s) {
   for (std::size_t b = 0; b < s.backbones.count(); ++b) {
     if (is_boundary(s.surface, s.backbones, b)) boundary += s.lines.interval_count(s.surface, s.backbones, b);
   }
-  const std::int64_t chi = integrate_density(s.surface).euler_characteristic;
-  const std::int64_t faces = 2 * std::int64_t{s.plan.first_count} - boundary - 2 * chi;
+  const std::int64_t faces = 2 * std::int64_t{s.plan.first_count} - boundary - 2 * s.euler_characteristic;
   return faces > 0 ? static_cast<std::size_t>(faces) : 0;
 }
 

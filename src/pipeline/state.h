@@ -44,6 +44,7 @@ struct Remesher::State {
   Stitch stitch;
   Samples samples;
   bool has_lines = false;
+  std::int64_t euler_characteristic = 0;  ///< of the input; refinement does not change it
   LevelPlan plan;
   ArenaMark before_atlas;
   Rates first_rates;  ///< of the first mesh

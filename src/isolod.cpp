@@ -32,7 +32,9 @@
 #include "sample/track.cpp"
 
 #include "atlas/chart.cpp"
+#include "atlas/dual_distance.cpp"
 #include "atlas/partition.cpp"
+#include "atlas/regions.cpp"
 
 #include "plane/chart_sites.cpp"
 #include "plane/delaunay.cpp"

@@ -6,7 +6,7 @@
 // so that `turn_left` from it visits every face of the vertex.
 #pragma once
 
-#include "base/index.h"
+#include "base/sort.h"
 #include "isolod/arena.h"
 
 namespace isolod {
@@ -50,10 +50,31 @@ void visit_outgoing(const Halfedges& mesh, VertexId v, Visit visit) {
   } while (!h.is_none() && h != first);
 }
 
-/// Fills `twin` and `outgoing` from `origin`. The triangles must be those of an oriented 2-manifold, as repair leaves
-/// them; `mesh.origin` is given, `mesh.twin` and `mesh.outgoing` are allocated as results, `vertex_count` of them.
-/// O(n) time; 8 bytes a halfedge and 4 a vertex of scratch. (Edges are paired by two
-/// stable counting sorts, so that a vertex of any valence costs no more than its share.)
+/// A stage: begin, step until done. Fills `twin` and `outgoing` from `origin`. The triangles must be those of an
+/// oriented 2-manifold, as repair leaves them. O(n) time; 8 bytes a halfedge and 4 a vertex of scratch, given back at
+/// the end. (Edges are paired by two stable counting sorts, so that a vertex of any valence costs no more than its
+/// share.)
+class Connect {
+ public:
+  /// `mesh.origin` is given, `mesh.twin` and `mesh.outgoing` are allocated as results, `vertex_count` of them.
+  Status begin(Halfedges& mesh, std::size_t vertex_count, Arena& arena);
+  /// A range of halfedges or vertices.
+  void step(Halfedges& mesh, Arena& arena);
+  bool done() const { return phase_ == Phase::done; }
+
+ private:
+  enum class Phase : std::uint8_t { list, sort_by_upper, sort_by_lower, pair, link, done };
+  void pair(Halfedges& mesh, std::size_t i);
+
+  Phase phase_ = Phase::done;
+  Sweep sweep_;
+  CountingSort<HalfedgeId> sort_;
+  Span<HalfedgeId> sorted_, buffer_;  // at last ordered by the lower vertex, then the upper, then their own index
+  Span<std::uint32_t> start_;
+  ArenaMark mark_;
+};
+
+/// The whole stage at once.
 Status connect(Halfedges& mesh, std::size_t vertex_count, Arena& arena);
 
 /// Sets `outgoing` from `origin` and `twin`, with the boundary rule above. O(n) time, no memory.

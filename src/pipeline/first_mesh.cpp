@@ -7,8 +7,6 @@
 #include "result/lift.h"
 #include "result/output.h"
 #include "sample/lloyd_line.h"
-#include "surface/density.h"
-#include "surface/features.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -18,8 +16,7 @@ namespace {
 using State = Remesher::State;
 
 constexpr std::uint32_t least_first_count = 2000;
-constexpr std::uint32_t atlas_stage = 6;  // its place in `stage_entries`
-constexpr double refine_limit = 1.25;     // wished edge lengths
+constexpr double refine_limit = 1.25;  // wished edge lengths
 
 std::uint64_t face_units(const State& s) { return s.surface.mesh.face_count(); }
 
@@ -32,13 +29,21 @@ Status step_repair(State& s, bool& done, std::uint64_t& units) {
 }
 
 Status step_halfedge(State& s, bool& done, std::uint64_t& units) {
-  s.surface.view = &s.view;
-  s.surface.source_vertex = s.repaired.source_vertex;
-  s.surface.source_face = s.repaired.source_triangle;
-  s.surface.mesh.origin = s.repaired.triangles;
-  ISOLOD_TRY(connect(s.surface.mesh, s.repaired.source_vertex.count, *s.arena));
+  units = elements_a_piece;
+  Halfedges& mesh = s.surface.mesh;
+  if (!s.stage_begun) {
+    s.surface.view = &s.view;
+    s.surface.source_vertex = s.repaired.source_vertex;
+    s.surface.source_face = s.repaired.source_triangle;
+    mesh.origin = s.repaired.triangles;
+    return s.connect.begin(mesh, s.repaired.source_vertex.count, *s.arena);
+  }
+  if (!s.connect.done()) {
+    s.connect.step(mesh, *s.arena);
+    return {};
+  }
   Topology topology;
-  ISOLOD_TRY(measure_topology(s.surface.mesh, topology, *s.arena));
+  ISOLOD_TRY(measure_topology(mesh, topology, *s.arena));
   s.report.components = static_cast<std::uint32_t>(topology.components);
   s.report.boundary_loops = static_cast<std::uint32_t>(topology.boundary_loops);
   units = face_units(s);
@@ -47,15 +52,24 @@ Status step_halfedge(State& s, bool& done, std::uint64_t& units) {
 }
 
 Status step_features(State& s, bool& done, std::uint64_t& units) {
-  units = face_units(s);
-  done = true;
-  return find_features(s.surface, {s.options.feature_angle, s.options.corner_angle}, *s.arena);
+  units = elements_a_piece;
+  if (!s.stage_begun) {
+    return s.features.begin(s.surface, {s.options.feature_angle, s.options.corner_angle}, *s.arena);
+  }
+  ISOLOD_TRY(s.features.step(s.surface, *s.arena));
+  done = s.features.done();
+  return {};
 }
 
 Status step_density(State& s, bool& done, std::uint64_t& units) {
-  units = face_units(s) * (1 + s.options.smoothing_passes);
-  done = true;
-  return find_density(s.surface, {s.options.density, s.options.gamma, s.options.smoothing_passes}, *s.arena);
+  units = elements_a_piece;
+  if (!s.stage_begun) {
+    ISOLOD_TRY(s.density.begin(s.surface, {s.options.density, s.options.gamma, s.options.smoothing_passes}, *s.arena));
+  } else {
+    s.density.step(s.surface, *s.arena);
+  }
+  done = s.density.done();
+  return {};
 }
 
 /// Fewer samples than this cannot hold the surface together: its corners, three a loop, four a component.
@@ -73,13 +87,14 @@ void plan_run(State& s, const DensityIntegrals& integrals, std::uint32_t most_sp
 }
 
 Status step_calibrate(State& s, bool& done, std::uint64_t& units) {
-  const DensityIntegrals integrals = integrate_density(s.surface);
-  s.euler_characteristic = integrals.euler_characteristic;
+  units = elements_a_piece;
+  s.integrate.step(s.surface);
+  done = s.integrate.done();
+  if (!done) return {};
+  const DensityIntegrals& integrals = s.integrate.integrals();
   s.report.corners = integrals.corner_count;
   s.rates = solve_rates(integrals, s.options.vertex_count, s.options.calibration);
-  units = face_units(s);
-  done = true;
-  for (std::uint8_t l : s.surface.line) s.has_lines = s.has_lines || l != line_none;
+  s.has_lines = integrals.lines > 0;
   plan_run(s, integrals, s.has_lines ? 0 : LevelPlan::most_splits);
   if (s.rates.line > 0 && s.first_rates.line > 0) return {};
   return fail(Status::budget_too_small, Element::count, least_budget(s, integrals));
@@ -88,7 +103,7 @@ Status step_calibrate(State& s, bool& done, std::uint64_t& units) {
 Status step_refine(State& s, bool& done, std::uint64_t& units) {
   if (!s.stage_begun) ISOLOD_TRY(s.refine.begin(s.surface, s.rates.line, refine_limit, *s.arena));
   ISOLOD_TRY(s.refine.step(s.surface, *s.arena));
-  units = face_units(s);
+  units = elements_a_piece;
   done = s.refine.done();
   return {};
 }
@@ -99,11 +114,12 @@ Status step_atlas(State& s, bool& done, std::uint64_t& units) {
     AtlasOptions options;
     options.line_rate = s.first_rates.line;
     options.surface_rate = s.first_rates.surface;
-    units = 20 * face_units(s);
+    units = face_units(s);
     return s.make_atlas.begin(s.surface, options, *s.arena);
   }
   if (!s.make_atlas.done()) {
-    units = 4000;
+    units = elements_a_piece;
+    s.stage_share = s.make_atlas.share_done();
     return s.make_atlas.step(*s.arena);
   }
   done = true;
@@ -118,33 +134,39 @@ void restart_finer(State& s) {
   s.arena->rewind_results(s.before_atlas);
   s.arena->rewind_scratch(s.before_atlas);
   for (std::uint8_t& l : s.surface.line) l = l & line_feature;
-  plan_run(s, integrate_density(s.surface), s.plan.splits - 1);
+  plan_run(s, s.integrate.integrals(), s.plan.splits - 1);
   s.next_stage = atlas_stage;
 }
 
-Status step_lines(State& s, bool& done, std::uint64_t& units) {
-  ISOLOD_TRY(chain_backbones(s.surface, s.backbones, *s.arena));
-  if (s.options.calibration == Calibration::paper) {
-    DensityIntegrals integrals = integrate_density(s.surface);
-    integrals.corner_count = static_cast<std::uint32_t>(s.backbones.node.count);
-    s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
-  }
+Status sample_all_lines(State& s, bool& done) {
   const std::uint64_t budget = s.plan.first_count, nodes = s.backbones.node.count;
   const std::uint32_t room = budget > nodes ? static_cast<std::uint32_t>(budget - nodes) : 0;
   Status status = sample_lines(s.surface, s.backbones, s.first_rates.line, room, s.lines, *s.arena);
   if (status == Status::budget_too_small) status.value += nodes;
   if (status.is_ok() && nodes > budget) status = fail(Status::budget_too_small, Element::count, nodes);
-  if (status == Status::budget_too_small && s.plan.splits > 0) {
-    restart_finer(s);
-    done = true;
-    return {};
-  }
-  ISOLOD_TRY(status);
-  ISOLOD_TRY(relax_lines(s.surface, s.backbones, s.lines, s.options.weight, default_line_iterations, *s.arena));
-  s.numbers = {static_cast<std::uint32_t>(nodes), static_cast<std::uint32_t>(s.lines.place.count)};
-  units = face_units(s);
+  if (status != Status::budget_too_small || s.plan.splits == 0) return status;
+  restart_finer(s);
   done = true;
   return {};
+}
+
+Status step_lines(State& s, bool& done, std::uint64_t& units) {
+  units = face_units(s);
+  switch (s.piece++) {
+    case 0:
+      return chain_backbones(s.surface, s.backbones, *s.arena);
+    case 1:
+      if (s.options.calibration == Calibration::paper) {
+        DensityIntegrals integrals = integrate_density(s.surface);  // once more: now with the seams
+        integrals.corner_count = static_cast<std::uint32_t>(s.backbones.node.count);
+        s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
+      }
+      return sample_all_lines(s, done);
+    default:
+      s.numbers = {static_cast<std::uint32_t>(s.backbones.node.count), static_cast<std::uint32_t>(s.lines.place.count)};
+      done = true;
+      return relax_lines(s.surface, s.backbones, s.lines, s.options.weight, default_line_iterations, *s.arena);
+  }
 }
 
 /// What the first mesh is made of. A node where a seam meets a feature is the feature's.
@@ -177,7 +199,8 @@ std::size_t result_face_count(const State& s) {
   for (std::size_t b = 0; b < s.backbones.count(); ++b) {
     if (is_boundary(s.surface, s.backbones, b)) boundary += s.lines.interval_count(s.surface, s.backbones, b);
   }
-  const std::int64_t faces = 2 * std::int64_t{s.plan.first_count} - boundary - 2 * s.euler_characteristic;
+  const std::int64_t faces =
+      2 * std::int64_t{s.plan.first_count} - boundary - 2 * s.integrate.integrals().euler_characteristic;
   return faces > 0 ? static_cast<std::size_t>(faces) : 0;
 }
 
@@ -197,18 +220,25 @@ Status step_charts(State& s, bool& done, std::uint64_t& units) {
   for (VertexId v : Ids<VertexId>(sites.sample.count)) {
     if (sites.sample[v].value >= first_movable) s.places[sites.sample[v].value - first_movable] = lloyd.lift(v);
   }
+  s.stage_share = static_cast<double>(s.piece) / static_cast<double>(s.atlas.chart_count());
   units = flat.chart.faces.count * 10 + sites.sample.count * (10 + 4 * std::uint64_t{s.options.lloyd_iterations});
   done = s.piece == s.atlas.chart_count();
   return s.stitch.add(sites);
 }
 
 Status step_stitch(State& s, bool& done, std::uint64_t& units) {
-  ISOLOD_TRY(s.stitch.finish(*s.arena));
   units = s.options.vertex_count;
-  done = true;
-  ISOLOD_TRY(gather_samples(s.sampled(), s.samples, *s.arena));
-  count_samples(s);
-  return sample_features_anew(s.surface, s.options.weight, s.samples, *s.arena);
+  switch (s.piece++) {
+    case 0:
+      return s.stitch.finish(*s.arena);
+    case 1:
+      ISOLOD_TRY(gather_samples(s.sampled(), s.samples, *s.arena));
+      count_samples(s);
+      return {};
+    default:
+      done = true;
+      return sample_features_anew(s.surface, s.options.weight, s.samples, *s.arena);
+  }
 }
 
 Status step_levels(State& s, bool& done, std::uint64_t& units) {
@@ -216,10 +246,11 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
     LevelOptions options;
     options.line_rate = s.rates.line;
     options.weight = s.options.weight;
-    ISOLOD_TRY(s.levels.begin(s.surface, s.plan, options));
+    s.levels.begin(s.plan, options);
   }
   ISOLOD_TRY(s.levels.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
-  units = 4000;
+  units = elements_a_piece;
+  s.stage_share = s.levels.share_done();
   done = s.levels.done();
   if (!s.levels.is_unresolved()) return {};
   restart_finer(s);
@@ -228,13 +259,19 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
 }
 
 Status step_lift(State& s, bool& done, std::uint64_t& units) {
-  mend_flat_faces(s.surface, s.stitch.mesh(), s.samples);
-  ISOLOD_TRY(s.arena->result(3 * s.samples.count(), s.positions));
-  lift_samples(s.surface, s.samples, s.positions);
-  ISOLOD_TRY(list_triangles(s.stitch.mesh().mesh, s.triangles, *s.arena));
   units = s.options.vertex_count;
-  done = true;
-  return {};
+  switch (s.piece++) {
+    case 0:
+      mend_flat_faces(s.surface, s.stitch.mesh(), s.samples);
+      return {};
+    case 1:
+      ISOLOD_TRY(s.arena->result(3 * s.samples.count(), s.positions));
+      lift_samples(s.surface, s.samples, s.positions);
+      return {};
+    default:
+      done = true;
+      return list_triangles(s.stitch.mesh().mesh, s.triangles, *s.arena);
+  }
 }
 
 Status step_validate(State& s, bool& done, std::uint64_t& units) {

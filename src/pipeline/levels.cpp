@@ -32,16 +32,41 @@ LevelPlan plan_levels(std::uint32_t vertex_count, std::int64_t euler_characteris
   return plan;
 }
 
-Status Levels::begin(const Surface&, const LevelPlan& plan, const LevelOptions& options) {
+void Levels::begin(const LevelPlan& plan, const LevelOptions& options) {
   plan_ = plan;
   options_ = options;
   level_ = iteration_ = 0;
   phase_ = Phase::begin_frames;
-  return {};
+}
+
+double Levels::share_done() const {
+  double whole = 0, before = 0, cost = 1;
+  for (std::uint32_t l = 0; l <= plan_.splits; ++l, cost *= 4) {
+    const double iterations = l == plan_.splits ? options_.fine_iterations : options_.coarse_iterations;
+    if (l < level_) before += cost;
+    if (l == level_ && phase_ != Phase::begin_frames && phase_ != Phase::make_frames) {
+      before += cost * smaller(1, iteration_ / iterations);
+    }
+    whole += cost;
+  }
+  return before / whole;
+}
+
+/// A piece of an iteration, and at its end what follows.
+void Levels::relax(std::size_t sample_count, Arena& arena) {
+  if (!relaxation_.step()) return;
+  const bool finest = level_ == plan_.splits;
+  if (level_ == 0 && !finest && iteration_ == trial_iterations &&
+      relaxation_.report().homeless > most_homeless * static_cast<double>(sample_count)) {
+    phase_ = Phase::unresolved;
+    return;
+  }
+  if (++iteration_ < (finest ? options_.fine_iterations : options_.coarse_iterations)) return;
+  arena.rewind_scratch(scratch_);
+  phase_ = finest ? Phase::done : Phase::begin_split;
 }
 
 Status Levels::step(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
-  const bool finest = level_ == plan_.splits;
   switch (phase_) {
     case Phase::begin_frames: {
       FrameOptions options;
@@ -62,18 +87,14 @@ Status Levels::step(const Surface& surface, Triangulation& mesh, Samples& sample
       scratch_ = arena.mark();
       return relaxation_.begin(surface, frames_, mesh, samples, {options_.weight, 1.8}, arena);
     case Phase::relax:
-      last_report_ = relaxation_.iterate();
-      if (level_ == 0 && !finest && iteration_ == trial_iterations &&
-          last_report_.homeless > most_homeless * static_cast<double>(samples.count())) {
-        phase_ = Phase::unresolved;
-        return {};
-      }
-      if (++iteration_ < (finest ? options_.fine_iterations : options_.coarse_iterations)) return {};
-      arena.rewind_scratch(scratch_);
-      phase_ = finest ? Phase::done : Phase::split;
+      relax(samples.count(), arena);
       return {};
+    case Phase::begin_split:
+      phase_ = Phase::split;
+      return split_.begin(surface, frames_, plan_.inserted[level_ + 1], mesh, samples, arena);
     case Phase::split:
-      ISOLOD_TRY(split_edges(surface, frames_, plan_.inserted[level_ + 1], mesh, samples, arena));
+      split_.step(arena);
+      if (!split_.done()) return {};
       ++level_;
       phase_ = Phase::begin_frames;
       return {};

@@ -35,16 +35,19 @@ struct LevelOptions {
 /// A stage: begin, step until done.
 class Levels {
  public:
-  Status begin(const Surface& surface, const LevelPlan& plan, const LevelOptions& options);
-  /// Tries one frame, or does one iteration, or one split.
+  void begin(const LevelPlan& plan, const LevelOptions& options);
+  /// Tries one frame, or does a piece of an iteration or of a split.
   Status step(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   bool done() const { return phase_ == Phase::done; }
+  /// Roughly, 0 to 1: a level costs four times what the one before did.
+  double share_done() const;
   /// Whether the first level was given up because too many of its samples have stars that no map holds, and there is a
   /// finer one to start from.
   bool is_unresolved() const { return phase_ == Phase::unresolved; }
 
  private:
-  enum class Phase : std::uint8_t { begin_frames, make_frames, insert, relax, split, done, unresolved };
+  enum class Phase : std::uint8_t { begin_frames, make_frames, insert, relax, begin_split, split, done, unresolved };
+  void relax(std::size_t sample_count, Arena& arena);
 
   LevelPlan plan_;
   LevelOptions options_;
@@ -53,7 +56,7 @@ class Levels {
   MakeFrames make_frames_;
   Frames frames_;
   Relaxation relaxation_;
-  RelaxReport last_report_;
+  SplitEdges split_;
   ArenaMark scratch_;
 };
 

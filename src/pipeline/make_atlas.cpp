@@ -6,7 +6,6 @@ inline namespace v1 {
 Status MakeAtlas::begin(const Surface& surface, const AtlasOptions& options, Arena& arena) {
   surface_ = &surface;
   options_ = options;
-  position_ = 0;
   chart_count_ = 0;
   const std::size_t face_count = surface.mesh.face_count();
   ISOLOD_TRY(arena.result(face_count, label_));
@@ -17,9 +16,7 @@ Status MakeAtlas::begin(const Surface& surface, const AtlasOptions& options, Are
   PartitionOptions partition_options;
   partition_options.line_rate = options.line_rate;
   partition_options.samples_per_chart = options.samples_per_chart;
-  ISOLOD_TRY(partition(surface, partition_options, label_, next_label_, arena));
-  ISOLOD_TRY(order_by_region(label_, next_label_, order_, arena));
-  return distances_.begin(surface, options.line_rate, Lines::dear, arena);
+  return regions_.begin(surface, partition_options, label_, order_, arena);
 }
 
 bool MakeAtlas::is_too_large(Span<const FaceId> faces) const {
@@ -44,18 +41,18 @@ Status MakeAtlas::try_map(Span<const FaceId> faces, bool& good, Arena& arena) {
 }
 
 Status MakeAtlas::step(Arena& arena) {
-  const std::size_t end = end_of_region(order_, label_, position_);
-  for (std::size_t i = position_; i < end; ++i) place_[order_[i]] = static_cast<std::uint32_t>(i - position_);
-  const Span<FaceId> faces = order_.slice(position_, end - position_);
+  if (!regions_.ready()) return regions_.step(arena);
+  const Span<const FaceId> faces = regions_.front();
+  for (std::size_t i = 0; i < faces.count; ++i) place_[faces[i]] = static_cast<std::uint32_t>(i);
   bool good = false;
   if (!is_too_large(faces)) ISOLOD_TRY(try_map(faces, good, arena));
   if (good) {
-    position_ = end;
+    regions_.take();
     ++chart_count_;
     return {};
   }
   if (faces.count == 1) return fail(Status::no_convergence, Element::triangle, surface_->source_face[faces[0u]]);
-  return split_region(faces, next_label_++, label_, distances_, arena);
+  return regions_.split(arena);
 }
 
 Status MakeAtlas::finish(Surface& surface, Atlas& atlas, Span<Vec2f>& uv, Arena& arena) {

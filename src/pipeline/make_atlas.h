@@ -3,7 +3,7 @@
 #pragma once
 
 #include "atlas/chart.h"
-#include "atlas/partition.h"
+#include "atlas/regions.h"
 #include "plane/flatten.h"
 
 namespace isolod {
@@ -21,10 +21,10 @@ struct AtlasOptions {
 class MakeAtlas {
  public:
   Status begin(const Surface& surface, const AtlasOptions& options, Arena& arena);
-  /// Tries one chart.
+  /// A piece of the partition, then a try at one chart.
   Status step(Arena& arena);
-  bool done() const { return position_ == order_.count; }
-  double share_done() const { return static_cast<double>(position_) / static_cast<double>(order_.count); }
+  bool done() const { return regions_.empty(); }
+  double share_done() const { return regions_.share_taken(); }
   /// Numbers the charts in the order of their faces, adds line_seam to the edges between them, and gives scratch back.
   Status finish(Surface& surface, Atlas& atlas, Span<Vec2f>& uv, Arena& arena);
 
@@ -38,10 +38,8 @@ class MakeAtlas {
   Span<FaceId> order_;
   Span<std::uint32_t> place_;
   Span<Vec2f> uv_;
-  DualDistance distances_;
+  Regions regions_;
   ArenaMark mark_;
-  std::uint32_t next_label_ = 0;
-  std::size_t position_ = 0;
   std::uint32_t chart_count_ = 0;
 };
 

@@ -27,10 +27,13 @@ Status check_options(const Options& options) {
 
 double now(const Hooks& hooks) { return hooks.clock != nullptr ? hooks.clock(hooks.context) : 0; }
 
-double share_done(std::uint32_t stage) {
-  double share = 0;
-  for (std::uint32_t i = 0; i < stage; ++i) share += stage_entries[i].share;
-  return smaller(1, share);
+double share_done(const Remesher::State& s) {
+  double whole = 0, before = 0;
+  for (std::uint32_t i = 0; i < stage_entry_count; ++i) {
+    if (i == s.stage) before = whole + s.stage_share * stage_entries[i].share;
+    whole += stage_entries[i].share;
+  }
+  return s.stage == stage_entry_count ? 1 : before / whole;
 }
 
 /// A run that starts again from a finer first mesh reports each stage once, with the time of all attempts.
@@ -59,6 +62,7 @@ Status do_piece(Remesher::State& s, std::uint64_t& units) {
   if (!done) return {};
   close_stage(s);
   s.piece = 0;
+  s.stage_share = 0;
   s.stage = s.next_stage;
   return {};
 }
@@ -90,7 +94,8 @@ Status Remesher::advance(std::uint64_t work) {
     spent += units;
     if (!s.report.status.is_ok() || s.hooks.progress == nullptr) continue;
     const char* name = done() ? "done" : stage_entries[s.stage].name;
-    if (!s.hooks.progress(s.hooks.context, name, share_done(s.stage))) s.report.status = fail(Status::cancelled);
+    s.share_shown = greater(s.share_shown, share_done(s));
+    if (!s.hooks.progress(s.hooks.context, name, s.share_shown)) s.report.status = fail(Status::cancelled);
   }
   if (s.report.status.is_ok() && done()) s.report.result_hash = s.report.stages[s.report.stage_count - 1].hash;
   return s.report.status;
@@ -120,38 +125,45 @@ Status deliver(const ResultMesh& mesh, const MeshSink& sink) {
 
 namespace {
 
-/// One whole run; what it took of the arena stays taken.
-Status run(const MeshView& view, const Options& options, const Hooks& hooks, Remesher& remesher, Arena& arena) {
-  ISOLOD_TRY(remesher.begin(view, options, hooks, arena));
-  return remesher.advance(UINT64_MAX - 1);
-}
-
-/// Whether a run with this many vertices succeeds; what it took is given back.
-Status try_count(const MeshView& view, Options options, std::uint64_t count, Arena& arena) {
+/// How a run with this many vertices ends, or, unless it is run `to_end`, whether its lines have room. What it took is
+/// given back.
+Status try_count(const MeshView& view, Options options, std::uint64_t count, bool to_end, Arena& arena) {
   const ArenaMark mark = arena.mark();
   options.vertex_count = static_cast<std::uint32_t>(count);
   Remesher remesher;
-  const Status status = run(view, options, {}, remesher, arena);
+  Status status = remesher.begin(view, options, {}, arena);
+  while (status.is_ok() && !remesher.done() && (to_end || remesher.state()->stage <= lines_stage)) {
+    status = remesher.advance(0);
+  }
   arena.rewind_results(mark);
   arena.rewind_scratch(mark);
   return status;
 }
 
 /// The charts, and with them what they need at least, change with the budget, so what a status names is tried out: a
-/// number that works while one less does not.
+/// number that works while one less does not. Only the last try is a whole run.
 std::uint64_t number_that_works(const MeshView& view, const Options& options, std::uint64_t named, Arena& arena) {
   constexpr std::uint32_t most_tries = 16;
+  constexpr std::uint64_t most_vertices = UINT32_MAX >> 4;
   std::uint64_t too_small = options.vertex_count;
-  for (std::uint32_t i = 0; i < most_tries; ++i) {
-    const Status status = try_count(view, options, named, arena);
-    if (status == Status::out_of_memory || named > (UINT32_MAX >> 4)) return named;
-    if (status.is_ok()) break;
+  const auto next = [&](const Status& status) {
     too_small = named;
     named = status == Status::budget_too_small && status.value > named ? status.value : named + named / 4 + 1;
+  };
+  for (std::uint32_t i = 0; i < most_tries && named <= most_vertices; ++i) {
+    const Status status = try_count(view, options, named, false, arena);
+    if (status == Status::out_of_memory) return named;
+    if (status.is_ok()) break;
+    next(status);
   }
   while (named - too_small > 1) {
     const std::uint64_t middle = too_small + (named - too_small) / 2;
-    (try_count(view, options, middle, arena).is_ok() ? named : too_small) = middle;
+    (try_count(view, options, middle, false, arena).is_ok() ? named : too_small) = middle;
+  }
+  for (std::uint32_t i = 0; i < most_tries && named <= most_vertices; ++i) {
+    const Status status = try_count(view, options, named, true, arena);
+    if (status.is_ok() || status == Status::out_of_memory) break;
+    next(status);
   }
   return named;
 }
@@ -162,7 +174,8 @@ Status remesh(const MeshView& view, const Options& options, const MeshSink& sink
               const Hooks& hooks) {
   const ArenaMark mark = arena.mark();
   Remesher remesher;
-  Status status = run(view, options, hooks, remesher, arena);
+  Status status = remesher.begin(view, options, hooks, arena);
+  if (status.is_ok()) status = remesher.advance(UINT64_MAX - 1);
   if (report != nullptr && remesher.state() != nullptr) *report = remesher.report();
   if (status.is_ok()) status = deliver(remesher.result(), sink);
   arena.rewind_results(mark);

@@ -9,6 +9,8 @@
 #include "result/stitch.h"
 #include "sample/calibrate.h"
 #include "sample/diffuse.h"
+#include "surface/density.h"
+#include "surface/features.h"
 #include "surface/refine.h"
 
 namespace isolod {
@@ -26,11 +28,17 @@ struct Remesher::State {
   std::uint32_t next_stage = 0;  ///< what follows when the stage is done
   bool stage_begun = false;
   double stage_start = 0;
-  std::uint32_t piece = 0;  ///< of the stage: the next chart, the next iteration
+  std::uint32_t piece = 0;  ///< of the stage: the next chart, the next part of its work
+  double stage_share = 0;   ///< done of the stage, 0 to 1, where it is known
+  double share_shown = 0;   ///< of the whole run, to the caller; it never falls, also where a run starts again
 
   Repair repair;
   RepairedMesh repaired;
   Surface surface;
+  Connect connect;
+  FindFeatures features;
+  FindDensity density;
+  IntegrateDensity integrate;
   Rates rates;
   Refine refine;
   MakeAtlas make_atlas;
@@ -44,7 +52,6 @@ struct Remesher::State {
   Stitch stitch;
   Samples samples;
   bool has_lines = false;
-  std::int64_t euler_characteristic = 0;  ///< of the input; refinement does not change it
   LevelPlan plan;
   ArenaMark before_atlas;
   Rates first_rates;  ///< of the first mesh
@@ -65,6 +72,9 @@ struct StageEntry {
 
 extern const StageEntry stage_entries[];
 extern const std::uint32_t stage_entry_count;
+
+/// Places in `stage_entries`: where a run starts again, and behind which a budget is known to be enough.
+constexpr std::uint32_t atlas_stage = 6, lines_stage = 7;
 
 }  // namespace v1
 }  // namespace isolod

@@ -14,7 +14,6 @@ constexpr std::uint8_t most_core_splits = 5;
 Status MakeFrames::begin(const Surface& surface, const FrameOptions& options, Arena& arena) {
   surface_ = &surface;
   options_ = options;
-  position_ = 0;
   frame_count_ = 0;
   last_ = nullptr;
   const std::size_t face_count = surface.mesh.face_count();
@@ -32,9 +31,7 @@ Status MakeFrames::begin(const Surface& surface, const FrameOptions& options, Ar
   partition_options.line_rate = options.line_rate;
   partition_options.samples_per_chart = options.samples_per_core;
   partition_options.lines = Lines::barriers;
-  ISOLOD_TRY(partition(surface, partition_options, label_, next_label_, arena));
-  ISOLOD_TRY(order_by_region(label_, next_label_, order_, arena));
-  return distances_.begin(surface, options.line_rate, Lines::barriers, arena);
+  return regions_.begin(surface, partition_options, label_, order_, arena);
 }
 
 Status MakeFrames::keep(const Chart& chart, Span<const Vec2f> uv, Arena& arena) {
@@ -65,7 +62,7 @@ Status MakeFrames::try_map(Span<const FaceId> core, std::uint8_t depth, bool& go
   double overlap = options_.overlap;
   for (std::uint8_t i = 0; i < depth; ++i) overlap *= overlap_per_split;
   reached_.count = order_.count;
-  distances_.grow(core, overlap, reached_);
+  regions_.distances().grow(core, overlap, reached_);
   for (std::size_t i = 0; i < reached_.count; ++i) {
     member_[reached_[i]] = frame_count_;
     place_[reached_[i]] = static_cast<std::uint32_t>(i);
@@ -82,8 +79,8 @@ Status MakeFrames::try_map(Span<const FaceId> core, std::uint8_t depth, bool& go
 }
 
 Status MakeFrames::step(Arena& arena) {
-  const std::size_t end = end_of_region(order_, label_, position_);
-  const Span<FaceId> core = order_.slice(position_, end - position_);
+  if (!regions_.ready()) return regions_.step(arena);
+  const Span<const FaceId> core = regions_.front();
   const std::uint8_t depth = depth_[core[0u]];
   bool good = false;
   ISOLOD_TRY(try_map(core, depth, good, arena));
@@ -91,11 +88,11 @@ Status MakeFrames::step(Arena& arena) {
     for (FaceId f : core) depth_[f] = static_cast<std::uint8_t>(depth + 1);
     // Each try has stamped its faces with this number; the next one must not take them for its own.
     for (FaceId f : reached_) member_[f] = UINT32_MAX;
-    return split_region(core, next_label_++, label_, distances_, arena);
+    return regions_.split(arena);
   }
   if (!good) ISOLOD_TRY(keep({}, {}, arena));  // its samples stay where they are
   for (FaceId f : core) core_of_face_[f] = frame_count_ - 1;
-  position_ = end;
+  regions_.take();
   return {};
 }
 

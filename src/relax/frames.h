@@ -8,7 +8,7 @@
 #pragma once
 
 #include "atlas/chart.h"
-#include "atlas/partition.h"
+#include "atlas/regions.h"
 #include "plane/flatten.h"
 
 namespace isolod {
@@ -40,9 +40,9 @@ struct FrameOptions {
 class MakeFrames {
  public:
   Status begin(const Surface& surface, const FrameOptions& options, Arena& arena);
-  /// Tries one frame.
+  /// A piece of the partition, then a try at one frame.
   Status step(Arena& arena);
-  bool done() const { return position_ == order_.count; }
+  bool done() const { return regions_.empty(); }
   /// Gives all scratch back.
   Status finish(Frames& frames, Arena& arena);
 
@@ -54,7 +54,6 @@ class MakeFrames {
   };
   Status try_map(Span<const FaceId> core, std::uint8_t depth, bool& good, Arena& arena);
   Status keep(const Chart& chart, Span<const Vec2f> uv, Arena& arena);
-  Status split(Span<FaceId> core, Arena& arena);
 
   const Surface* surface_ = nullptr;
   FrameOptions options_;
@@ -62,11 +61,10 @@ class MakeFrames {
   Span<std::uint32_t> label_, member_, place_;
   Span<std::uint8_t> depth_;  ///< per face: how often its region was split
   Span<FaceId> order_, reached_;
-  DualDistance distances_;
+  Regions regions_;
   Found* last_ = nullptr;
   ArenaMark mark_;
-  std::uint32_t next_label_ = 0, frame_count_ = 0;
-  std::size_t position_ = 0;
+  std::uint32_t frame_count_ = 0;
 };
 
 }  // namespace v1

@@ -50,6 +50,8 @@ Status Relaxation::begin(const Surface& surface, const Frames& frames, Triangula
   mesh_ = &mesh;
   samples_ = samples;
   options_ = options;
+  phase_ = Phase::homes;
+  sweep_ = {};
   ISOLOD_TRY(ground_.begin(surface, frames, arena));
   std::size_t free_count = 0;
   for (std::uint8_t h : samples.held) free_count += h == 0;
@@ -147,12 +149,12 @@ bool Relaxation::find_target(VertexId v) {
   return true;
 }
 
-void Relaxation::move(VertexId v, RelaxReport& report) {
+void Relaxation::move(VertexId v) {
   Ring ring;
   if (!gather(v, ring)) return;
   const std::uint32_t positive = ring.positive_faces(ring.centre);
   for (std::uint32_t halving = 0; halving <= most_halvings; ++halving) {
-    if (halving == 1) ++report.shortened;
+    if (halving == 1) ++report_.shortened;
     const Vec2 target = target_[v];
     target_[v] = 0.5 * (ring.centre + target);
     if (ring.positive_faces(target) < positive) continue;
@@ -160,7 +162,7 @@ void Relaxation::move(VertexId v, RelaxReport& report) {
     if (place.is_none()) continue;
     samples_.place[sample(v)] = {place.face, place.w[1], place.w[2]};
     sight_[v].when = 0;
-    ++report.moved;
+    ++report_.moved;
     return;
   }
 }
@@ -210,7 +212,7 @@ bool Relaxation::wants_flip(HalfedgeId h) const {
 }
 
 /// Every edge belongs to the lowest free sample among its ends and, where both are held, its apexes.
-void Relaxation::flip_around(VertexId v, RelaxReport& report) {
+void Relaxation::flip_around(VertexId v) {
   const Halfedges& mesh = mesh_->mesh;
   const auto is_free = [&](VertexId w) { return !samples_.held[sample(w)]; };
   for (std::uint32_t flips = 0; flips < most_neighbours; ++flips) {
@@ -229,7 +231,7 @@ void Relaxation::flip_around(VertexId v, RelaxReport& report) {
     } while (chosen.is_none() && !h.is_none() && h != first);
     if (chosen.is_none()) return;
     flip(*mesh_, chosen);
-    ++report.flips;
+    ++report_.flips;
   }
 }
 
@@ -245,48 +247,77 @@ bool Relaxation::wants_flip_in_space(HalfedgeId h) const {
 }
 
 /// Strips between two lines have no free sample to look after their edges.
-void Relaxation::flip_between_lines(RelaxReport& report) {
+void Relaxation::flip_between_lines(HalfedgeId h) {
   const Halfedges& mesh = mesh_->mesh;
-  for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
-    const HalfedgeId g = mesh.twin[h];
-    if (g.is_none() || g < h || mesh_->is_fixed(h)) continue;
-    const VertexId corners[4] = {mesh.origin[h], mesh.origin[g], mesh.apex(h), mesh.apex(g)};
-    bool all_held = true;
-    for (VertexId v : corners) all_held = all_held && samples_.held[sample(v)];
-    if (!all_held || !wants_flip_in_space(h)) continue;
-    flip(*mesh_, h);
-    ++report.flips;
+  const HalfedgeId g = mesh.twin[h];
+  if (g.is_none() || g < h || mesh_->is_fixed(h)) return;
+  const VertexId corners[4] = {mesh.origin[h], mesh.origin[g], mesh.apex(h), mesh.apex(g)};
+  for (VertexId v : corners) {
+    if (!samples_.held[sample(v)]) return;
+  }
+  if (!wants_flip_in_space(h)) return;
+  flip(*mesh_, h);
+  ++report_.flips;
+}
+
+void Relaxation::find_targets(std::uint32_t frame) {
+  look_anew(frame);
+  for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
+    const SampleId s = resident_[i];
+    has_target_[s] = find_target(vertex(s));
+    if (has_target_[s]) continue;
+    ++report_.homeless;
+    guest_[s] = guest_[s] < most_hosts ? static_cast<std::uint8_t>(guest_[s] + 1) : std::uint8_t{0};
   }
 }
 
-RelaxReport Relaxation::iterate() {
-  RelaxReport report;
-  assign_homes();
-  for (std::uint32_t frame = 0; frame < frames_->frame.count; ++frame) {
-    look_anew(frame);
-    for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
-      const SampleId s = resident_[i];
-      has_target_[s] = find_target(vertex(s));
-      if (has_target_[s]) continue;
-      ++report.homeless;
-      guest_[s] = guest_[s] < most_hosts ? static_cast<std::uint8_t>(guest_[s] + 1) : std::uint8_t{0};
+void Relaxation::move_and_flip(std::uint32_t frame) {
+  look_anew(frame);
+  for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
+    if (has_target_[resident_[i]]) {
+      move(vertex(resident_[i]));
+    } else {
+      move_in_space(vertex(resident_[i]));
     }
   }
-  for (std::uint32_t frame = 0; frame < frames_->frame.count; ++frame) {
-    look_anew(frame);
-    for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
-      if (has_target_[resident_[i]]) {
-        move(vertex(resident_[i]), report);
-      } else {
-        move_in_space(vertex(resident_[i]));
+  for (std::uint32_t round = 0; round < 2; ++round) {
+    for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) flip_around(vertex(resident_[i]));
+  }
+}
+
+bool Relaxation::step() {
+  const std::size_t frame_count = frames_->frame.count;
+  switch (phase_) {
+    case Phase::homes:
+      report_ = {};
+      assign_homes();
+      frame_ = 0;
+      phase_ = Phase::targets;
+      return false;
+    case Phase::targets:
+      find_targets(frame_);
+      if (++frame_ < frame_count) return false;
+      frame_ = 0;
+      phase_ = Phase::moves;
+      return false;
+    case Phase::moves:
+      move_and_flip(frame_);
+      if (++frame_ == frame_count) phase_ = Phase::strips;
+      return false;
+    case Phase::strips:
+      if (!sweep_.over<HalfedgeId>(mesh_->mesh.halfedge_count(), [&](HalfedgeId h) { flip_between_lines(h); })) {
+        return false;
       }
-    }
-    for (std::uint32_t sweep = 0; sweep < 2; ++sweep) {
-      for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) flip_around(vertex(resident_[i]), report);
-    }
+      phase_ = Phase::homes;
+      return true;
   }
-  flip_between_lines(report);
-  return report;
+  return true;
+}
+
+RelaxReport Relaxation::iterate() {
+  while (!step()) {
+  }
+  return report_;
 }
 
 }  // namespace v1

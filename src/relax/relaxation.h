@@ -6,6 +6,7 @@
 // samples on them are held. The mesh is a valid manifold with the same count after every iteration.
 #pragma once
 
+#include "base/sweep.h"
 #include "isolod/options.h"
 #include "mesh/triangulation.h"
 #include "relax/frame_ground.h"
@@ -32,18 +33,26 @@ class Relaxation {
   Status begin(const Surface& surface, const Frames& frames, Triangulation& mesh, const Samples& samples,
                const RelaxOptions& options, Arena& arena);
 
+  /// A piece of an iteration: the targets of one frame, the moves and flips of one, or a range of edges; true at the
+  /// end of the iteration.
+  bool step();
+  const RelaxReport& report() const { return report_; }  ///< of the iteration that ended last, or goes on
+  /// A whole iteration.
   RelaxReport iterate();
 
  private:
+  enum class Phase : std::uint8_t { homes, targets, moves, strips };
   struct Ring;
   void assign_homes();
   std::uint32_t home(SampleId s) const;
   bool gather(VertexId v, Ring& ring) const;
   bool find_target(VertexId v);
-  void move(VertexId v, RelaxReport& report);
+  void find_targets(std::uint32_t frame);
+  void move(VertexId v);
   void move_in_space(VertexId v);
-  void flip_around(VertexId v, RelaxReport& report);
-  void flip_between_lines(RelaxReport& report);
+  void flip_around(VertexId v);
+  void move_and_flip(std::uint32_t frame);
+  void flip_between_lines(HalfedgeId h);
   bool wants_flip_in_space(HalfedgeId h) const;
   bool wants_flip(HalfedgeId h) const;
   /// Where a sample is in the selected frame, looked up once a frame and kept until the sample moves.
@@ -61,6 +70,10 @@ class Relaxation {
   Triangulation* mesh_ = nullptr;
   Samples samples_;
   RelaxOptions options_;
+  RelaxReport report_;
+  Phase phase_ = Phase::homes;
+  std::uint32_t frame_ = 0;
+  Sweep sweep_;
   FrameGround ground_;
   Span<std::uint32_t> start_;  // per frame, one more: its part of `resident_`
   Span<SampleId> free_, resident_;

@@ -14,120 +14,133 @@ void make_free(Samples& samples, SampleId s) {
   samples.held[s] = 0;
 }
 
-/// The new samples, one an edge, numbered in halfedge order behind the old ones.
-struct Middles {
-  Span<SampleId> of_halfedge;
-  std::uint32_t count = 0;
-};
+/// The halves of a coarse halfedge in the fine mesh: face 4 f + k holds corner k, face 4 f + 3 the three middles.
+HalfedgeId first_half(HalfedgeId h) { return halfedge(FaceId{4 * face(h).value + h.value % 3}, 0); }
+HalfedgeId second_half(HalfedgeId h) { return halfedge(FaceId{4 * face(h).value + next(h).value % 3}, 2); }
 
-Status number_middles(const Halfedges& mesh, std::uint32_t first, Middles& middles, Arena& arena) {
-  ISOLOD_TRY(arena.scratch(mesh.halfedge_count(), middles.of_halfedge));
-  for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
-    const HalfedgeId t = mesh.twin[h];
-    const bool first_side = t.is_none() || h < t;
-    middles.of_halfedge[h] = first_side ? SampleId{first + middles.count++} : middles.of_halfedge[t];
+}  // namespace
+
+std::uint32_t SplitEdges::number_middles() {
+  std::uint32_t count = static_cast<std::uint32_t>(old_.count());
+  for (HalfedgeId h : Ids<HalfedgeId>(coarse_.halfedge_count())) {
+    const HalfedgeId t = coarse_.twin[h];
+    middle_[h] = t.is_none() || h < t ? SampleId{count++} : middle_[t];
   }
-  return {};
+  return count;
 }
 
-/// The middle of an edge in the selected frame, or nowhere.
-bool place_middle(const FrameGround& ground, const Samples& samples, SampleId a, SampleId b, SurfacePlace& place) {
-  const FrameGround::LocalPlace at_a = ground.find(samples, a), at_b = ground.find(samples, b);
-  if (at_a.is_none() || at_b.is_none()) return false;
-  const FrameGround::LocalPlace middle = ground.walk(at_a.face, 0.5 * (ground.uv(at_a) + ground.uv(at_b)));
-  if (middle.is_none()) return false;
-  place = {middle.face, middle.w[1], middle.w[2]};
-  return true;
-}
-
-/// Places all middles, frame by frame, each edge in the frame of one of its ends; what fits none is brought down from
-/// the middle of its chord.
-Status place_middles(const Surface& surface, const Frames& frames, const Halfedges& mesh, const Samples& old,
-                     const Middles& middles, Samples& samples, Arena& arena) {
-  FrameGround ground;
-  ISOLOD_TRY(ground.begin(surface, frames, arena));
-  for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
-    if (mesh.is_boundary(h) || h < mesh.twin[h]) {
-      const SampleId a{mesh.origin[h].value}, b{mesh.target(h).value};
-      const Vec3 middle = midpoint(position_of(surface, old, a), position_of(surface, old, b));
-      samples.place[middles.of_halfedge[h]] = descend(surface, old.place[a].face, middle);
-    }
-  }
-  const auto frame_of = [&](VertexId v) { return frames.core_of_face[old.place[SampleId{v.value}].face]; };
-  Span<HalfedgeId> waiting, sorted;
-  Span<std::uint32_t> start;
-  ISOLOD_TRY(arena.scratch(mesh.halfedge_count(), waiting));
-  ISOLOD_TRY(arena.scratch(mesh.halfedge_count(), sorted));
-  ISOLOD_TRY(arena.scratch(frames.frame.count + 1, start));
-  for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) waiting[h] = h;
-  counting_sort<HalfedgeId>(waiting, sorted, start, [&](HalfedgeId h) { return frame_of(mesh.origin[h]); });
-  for (std::uint32_t frame = 0; frame < frames.frame.count; ++frame) {
-    ground.select(frame);
-    for (std::uint32_t i = start[frame]; i < start[frame + 1]; ++i) {
-      const HalfedgeId h = sorted[i];
-      place_middle(ground, old, SampleId{mesh.origin[h].value}, SampleId{mesh.target(h).value},
-                   samples.place[middles.of_halfedge[h]]);
-    }
-  }
-  return {};
-}
-
-/// The next level's arrays, with room for `spare` samples more than are there at first.
-Status reserve_level(std::size_t sample_count, std::size_t face_count, std::uint32_t spare, Triangulation& mesh,
-                     Samples& samples, Arena& arena) {
+/// The next level's arrays, with room for `spare` samples more than are there at first. All are free; the old ones keep
+/// their places.
+Status SplitEdges::reserve(std::size_t sample_count, std::uint32_t spare, Arena& arena) {
+  Samples& samples = *samples_;
+  Triangulation& mesh = *mesh_;
+  const std::size_t face_count = 4 * coarse_.face_count(), halfedges = 3 * (face_count + 2 * std::size_t{spare});
   ISOLOD_TRY(arena.result(sample_count + spare, samples.place));
   ISOLOD_TRY(arena.result(sample_count + spare, samples.anchor));
   ISOLOD_TRY(arena.result(sample_count + spare, samples.held));
   ISOLOD_TRY(arena.result(sample_count + spare, mesh.mesh.outgoing));
-  const std::size_t halfedges = 3 * (face_count + 2 * std::size_t{spare});
   ISOLOD_TRY(arena.result(halfedges, mesh.mesh.origin));
   ISOLOD_TRY(arena.result(halfedges, mesh.mesh.twin));
   ISOLOD_TRY(arena.result(halfedges, mesh.fixed));
   samples.place.count = samples.anchor.count = samples.held.count = mesh.mesh.outgoing.count = sample_count;
   mesh.mesh.origin.count = mesh.mesh.twin.count = mesh.fixed.count = 3 * face_count;
+  for (SampleId s : Ids<SampleId>(sample_count)) make_free(samples, s);
+  for (SampleId s : Ids<SampleId>(old_.count())) samples.place[s] = old_.place[s];
+  for (std::uint8_t& bits : mesh.fixed) bits = 0;
   return {};
 }
 
-/// The halves of a coarse halfedge in the fine mesh: face 4 f + k holds corner k, face 4 f + 3 the three middles.
-HalfedgeId first_half(HalfedgeId h) { return halfedge(FaceId{4 * face(h).value + h.value % 3}, 0); }
-HalfedgeId second_half(HalfedgeId h) { return halfedge(FaceId{4 * face(h).value + next(h).value % 3}, 2); }
-
-void subdivide(const Halfedges& coarse, const Middles& middles, Halfedges& fine) {
-  for (HalfedgeId h : Ids<HalfedgeId>(coarse.halfedge_count())) {
-    const VertexId middle{middles.of_halfedge[h].value};
-    const HalfedgeId cut = next(first_half(h)), t = coarse.twin[h];
-    const HalfedgeId inner = halfedge(FaceId{4 * face(h).value + 3}, (h.value + 2) % 3);
-    fine.origin[first_half(h)] = coarse.origin[h];
-    fine.origin[second_half(h)] = fine.origin[cut] = middle;
-    fine.origin[next(inner)] = middle;
-    fine.twin[cut] = inner;
-    fine.twin[inner] = cut;
-    fine.twin[first_half(h)] = t.is_none() ? t : second_half(t);
-    fine.twin[second_half(h)] = t.is_none() ? t : first_half(t);
-  }
-  link_vertices(fine);
+Status SplitEdges::sort_by_frame(Arena& arena) {
+  ISOLOD_TRY(arena.scratch(coarse_.halfedge_count(), by_frame_));
+  ISOLOD_TRY(arena.scratch(frames_->frame.count + 1, start_));
+  const ScratchScope scope(arena);
+  Span<HalfedgeId> unsorted;
+  ISOLOD_TRY(arena.scratch(coarse_.halfedge_count(), unsorted));
+  for (HalfedgeId h : Ids<HalfedgeId>(unsorted.count)) unsorted[h] = h;
+  counting_sort<HalfedgeId>(unsorted, by_frame_, start_,
+                            [&](HalfedgeId h) { return frames_->core_of_face[old_.place[end_of(h)].face]; });
+  return {};
 }
 
-}  // namespace
+Status SplitEdges::begin(const Surface& surface, const Frames& frames, std::uint32_t spare, Triangulation& mesh,
+                         Samples& samples, Arena& arena) {
+  surface_ = &surface;
+  frames_ = &frames;
+  mesh_ = &mesh;
+  samples_ = &samples;
+  coarse_ = mesh.mesh;
+  old_ = samples;
+  phase_ = Phase::bring_down;
+  sweep_ = {};
+  frame_ = 0;
+  mark_ = arena.mark();
+  ISOLOD_TRY(arena.scratch(coarse_.halfedge_count(), middle_));
+  ISOLOD_TRY(reserve(number_middles(), spare, arena));
+  ISOLOD_TRY(sort_by_frame(arena));
+  return ground_.begin(surface, frames, arena);
+}
+
+/// At first the middle of the chord, brought down to the surface: what no frame holds stays there.
+void SplitEdges::bring_down(HalfedgeId h) {
+  if (!coarse_.is_boundary(h) && coarse_.twin[h] < h) return;
+  const SampleId a = end_of(h), b = end_of(next(h));
+  const Vec3 middle = midpoint(position_of(*surface_, old_, a), position_of(*surface_, old_, b));
+  samples_->place[middle_[h]] = descend(*surface_, old_.place[a].face, middle);
+}
+
+/// The middles, in the map, of all edges that begin in the frame's core. Each edge has two tries, one an end.
+void SplitEdges::place_in_frame(std::uint32_t frame) {
+  ground_.select(frame);
+  for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
+    const HalfedgeId h = by_frame_[i];
+    const FrameGround::LocalPlace a = ground_.find(old_, end_of(h)), b = ground_.find(old_, end_of(next(h)));
+    if (a.is_none() || b.is_none()) continue;
+    const FrameGround::LocalPlace middle = ground_.walk(a.face, 0.5 * (ground_.uv(a) + ground_.uv(b)));
+    if (!middle.is_none()) samples_->place[middle_[h]] = {middle.face, middle.w[1], middle.w[2]};
+  }
+}
+
+void SplitEdges::subdivide(HalfedgeId h) {
+  Halfedges& fine = mesh_->mesh;
+  const VertexId middle{middle_[h].value};
+  const HalfedgeId cut = next(first_half(h)), t = coarse_.twin[h];
+  const HalfedgeId inner = halfedge(FaceId{4 * face(h).value + 3}, (h.value + 2) % 3);
+  fine.origin[first_half(h)] = coarse_.origin[h];
+  fine.origin[second_half(h)] = fine.origin[cut] = middle;
+  fine.origin[next(inner)] = middle;
+  fine.twin[cut] = inner;
+  fine.twin[inner] = cut;
+  fine.twin[first_half(h)] = t.is_none() ? t : second_half(t);
+  fine.twin[second_half(h)] = t.is_none() ? t : first_half(t);
+}
+
+void SplitEdges::step(Arena& arena) {
+  const std::size_t halfedges = coarse_.halfedge_count();
+  switch (phase_) {
+    case Phase::bring_down:
+      if (sweep_.over<HalfedgeId>(halfedges, [&](HalfedgeId h) { bring_down(h); })) phase_ = Phase::place;
+      return;
+    case Phase::place:
+      place_in_frame(frame_);
+      if (++frame_ == frames_->frame.count) phase_ = Phase::subdivide;
+      return;
+    case Phase::subdivide:
+      if (!sweep_.over<HalfedgeId>(halfedges, [&](HalfedgeId h) { subdivide(h); })) return;
+      link_vertices(mesh_->mesh);
+      arena.rewind_scratch(mark_);
+      phase_ = Phase::done;
+      return;
+    case Phase::done:
+      return;
+  }
+}
 
 Status split_edges(const Surface& surface, const Frames& frames, std::uint32_t spare, Triangulation& mesh,
                    Samples& samples, Arena& arena) {
   const ScratchScope scope(arena);
-  const Samples old = samples;
-  const Halfedges coarse = mesh.mesh;
-  const std::uint32_t old_count = static_cast<std::uint32_t>(old.count());
-  Middles middles;
-  ISOLOD_TRY(number_middles(coarse, old_count, middles, arena));
-  ISOLOD_TRY(reserve_level(old_count + middles.count, 4 * coarse.face_count(), spare, mesh, samples, arena));
-  for (SampleId s : Ids<SampleId>(old_count)) {
-    samples.place[s] = old.place[s];
-    samples.anchor[s] = old.anchor[s];
-    samples.held[s] = old.held[s];
-  }
-  for (std::uint32_t i = 0; i < middles.count; ++i) make_free(samples, SampleId{old_count + i});
-  for (std::uint8_t& bits : mesh.fixed) bits = 0;
-  ISOLOD_TRY(place_middles(surface, frames, coarse, old, middles, samples, arena));
-  subdivide(coarse, middles, mesh.mesh);
+  SplitEdges split;
+  ISOLOD_TRY(split.begin(surface, frames, spare, mesh, samples, arena));
+  while (!split.done()) split.step(arena);
   return {};
 }
 

@@ -19,24 +19,44 @@ double edge_density(const Surface& surface, HalfedgeId h) {
   return edge_length(surface, h) * 0.5 * (line_density(surface, h) + square_root(far));
 }
 
-DensityIntegrals integrate_density(const Surface& surface) {
+void IntegrateDensity::add_edge(const Surface& surface, HalfedgeId h) {
+  const HalfedgeId t = surface.mesh.twin[h];
+  if (!t.is_none() && t < h) return;
+  --sum_.euler_characteristic;
+  if (surface.line[h] == line_none) return;
+  const double d = edge_density(surface, h);
+  sum_.lines += d;
+  if (t.is_none()) sum_.boundary += d;
+}
+
+void IntegrateDensity::step(const Surface& surface) {
   const Halfedges& mesh = surface.mesh;
-  DensityIntegrals sum;
-  std::int64_t edge_count = 0;
-  for (FaceId f : Ids<FaceId>(mesh.face_count())) sum.surface += face_density(surface, f);
-  for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
-    const HalfedgeId t = mesh.twin[h];
-    if (!t.is_none() && t < h) continue;
-    ++edge_count;
-    if (surface.line[h] == line_none) continue;
-    const double d = edge_density(surface, h);
-    sum.lines += d;
-    if (t.is_none()) sum.boundary += d;
+  switch (phase_) {
+    case Phase::faces:
+      if (sweep_.over<FaceId>(mesh.face_count(), [&](FaceId f) { sum_.surface += face_density(surface, f); })) {
+        sum_.euler_characteristic = static_cast<std::int64_t>(mesh.vertex_count() + mesh.face_count());
+        phase_ = Phase::edges;
+      }
+      return;
+    case Phase::edges:
+      if (sweep_.over<HalfedgeId>(mesh.halfedge_count(), [&](HalfedgeId h) { add_edge(surface, h); })) {
+        phase_ = Phase::corners;
+      }
+      return;
+    case Phase::corners:
+      if (sweep_.over<VertexId>(mesh.vertex_count(), [&](VertexId v) { sum_.corner_count += surface.corner[v]; })) {
+        phase_ = Phase::done;
+      }
+      return;
+    case Phase::done:
+      return;
   }
-  for (std::uint8_t c : surface.corner) sum.corner_count += c;
-  sum.euler_characteristic =
-      static_cast<std::int64_t>(mesh.vertex_count()) - edge_count + static_cast<std::int64_t>(mesh.face_count());
-  return sum;
+}
+
+DensityIntegrals integrate_density(const Surface& surface) {
+  IntegrateDensity stage;
+  while (!stage.done()) stage.step(surface);
+  return stage.integrals();
 }
 
 Rates solve_rates(const DensityIntegrals& integrals, std::uint32_t vertex_count, Calibration calibration) {

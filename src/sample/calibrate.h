@@ -6,6 +6,7 @@
 // R_f * D_b / 2 + chi.
 #pragma once
 
+#include "base/sweep.h"
 #include "isolod/options.h"
 #include "mesh/surface.h"
 
@@ -32,6 +33,24 @@ double line_density(const Surface& surface, HalfedgeId h);
 /// The integral of d_f over an edge: it is linear there.
 double edge_density(const Surface& surface, HalfedgeId h);
 
+/// A stage: step until done. O(n) time, no memory.
+class IntegrateDensity {
+ public:
+  /// A range of faces, halfedges or vertices.
+  void step(const Surface& surface);
+  bool done() const { return phase_ == Phase::done; }
+  const DensityIntegrals& integrals() const { return sum_; }
+
+ private:
+  enum class Phase : std::uint8_t { faces, edges, corners, done };
+  void add_edge(const Surface& surface, HalfedgeId h);
+
+  DensityIntegrals sum_;
+  Phase phase_ = Phase::faces;
+  Sweep sweep_;
+};
+
+/// The whole stage at once.
 DensityIntegrals integrate_density(const Surface& surface);
 
 /// The positive root of the calibration's quadratic; rates of zero where the budget does not even hold the constant

@@ -65,66 +65,98 @@ double wedge_mean_curvature(const Surface& surface, HalfedgeId first) {
   return scale > 0 ? 0.5 * absolute(dot(sum.normal, sum.area_normal)) / scale : 0;
 }
 
-void fill_curvature(Surface& surface, double gamma) {
-  const double scale = diagonal(surface);
-  for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
-    if (!starts_wedge(surface, h)) continue;
-    const double x = greater(least_curvature, smaller(greatest_curvature, scale * wedge_mean_curvature(surface, h)));
-    const float d = static_cast<float>(power(x, gamma));
-    visit_wedge(surface, h, [&](HalfedgeId w) { surface.wedge_density[w] = d; });
-  }
+void fill_curvature(Surface& surface, HalfedgeId h, double scale, double gamma) {
+  if (!starts_wedge(surface, h)) return;
+  const double x = greater(least_curvature, smaller(greatest_curvature, scale * wedge_mean_curvature(surface, h)));
+  const float d = static_cast<float>(power(x, gamma));
+  visit_wedge(surface, h, [&](HalfedgeId w) { surface.wedge_density[w] = d; });
 }
 
-Status fill_given(Surface& surface) {
+/// The greatest of the densities that the caller gives, all of which must be positive.
+Status find_greatest_given(const Surface& surface, double& greatest) {
   const double* given = surface.view->vertex_density;
   if (given == nullptr) return fail(Status::invalid_option, Element::option, 3);  // Options::density
-  double greatest = 0;
+  greatest = 0;
   for (std::uint32_t source : surface.source_vertex) {
     const double d = given[source];
     if (!(d > 0) || !(d < 1e300)) return fail(Status::density_not_positive, Element::vertex, source);
     greatest = greater(greatest, d);
   }
-  for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
-    const double relative = given[surface.source_vertex[surface.mesh.origin[h]]] / greatest;
-    surface.wedge_density[h] = static_cast<float>(greater(relative, 1e-12));
-  }
   return {};
 }
 
-void smooth_once(Surface& surface, Span<float> face_mean) {
-  for (FaceId f : Ids<FaceId>(surface.mesh.face_count())) {
-    const double sum =
-        surface.density(halfedge(f, 0)) + surface.density(halfedge(f, 1)) + surface.density(halfedge(f, 2));
-    face_mean[f] = static_cast<float>(sum / 3);
-  }
-  for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
-    if (!starts_wedge(surface, h)) continue;
-    double mass = 0, area = 0;
-    visit_wedge(surface, h, [&](HalfedgeId w) {
-      const double a = face_area(surface, face(w));
-      mass += a * static_cast<double>(face_mean[face(w)]);
-      area += a;
-    });
-    const float mean = static_cast<float>(mass / area);
-    visit_wedge(surface, h, [&](HalfedgeId w) { surface.wedge_density[w] = mean; });
-  }
+float mean_of_corners(const Surface& surface, FaceId f) {
+  const double sum =
+      surface.density(halfedge(f, 0)) + surface.density(halfedge(f, 1)) + surface.density(halfedge(f, 2));
+  return static_cast<float>(sum / 3);
+}
+
+/// One pass of the low-pass at a wedge: the mean over its faces, weighted by area.
+void spread_means(Surface& surface, HalfedgeId h, Span<const float> face_mean) {
+  if (!starts_wedge(surface, h)) return;
+  double mass = 0, area = 0;
+  visit_wedge(surface, h, [&](HalfedgeId w) {
+    const double a = face_area(surface, face(w));
+    mass += a * static_cast<double>(face_mean[face(w)]);
+    area += a;
+  });
+  const float mean = static_cast<float>(mass / area);
+  visit_wedge(surface, h, [&](HalfedgeId w) { surface.wedge_density[w] = mean; });
 }
 
 }  // namespace
 
-Status find_density(Surface& surface, const DensityOptions& options, Arena& arena) {
+Status FindDensity::begin(Surface& surface, const DensityOptions& options, Arena& arena) {
+  options_ = options;
+  phase_ = Phase::done;
+  sweep_ = {};
+  pass_ = 0;
+  mark_ = arena.mark();
   surface.wedge_density = {};
   if (options.source == DensitySource::uniform) return {};
-  ISOLOD_TRY(arena.result(surface.mesh.halfedge_count(), surface.wedge_density));
   if (options.source == DensitySource::given) {
-    ISOLOD_TRY(fill_given(surface));
+    ISOLOD_TRY(find_greatest_given(surface, scale_));
   } else {
-    fill_curvature(surface, options.gamma);
+    scale_ = diagonal(surface);
   }
+  ISOLOD_TRY(arena.result(surface.mesh.halfedge_count(), surface.wedge_density));
+  phase_ = Phase::fill;
+  return options.smoothing_passes == 0 ? Status() : arena.scratch(surface.mesh.face_count(), face_mean_);
+}
+
+void FindDensity::fill(Surface& surface, HalfedgeId h) const {
+  if (options_.source == DensitySource::curvature) return fill_curvature(surface, h, scale_, options_.gamma);
+  const double relative = surface.view->vertex_density[surface.source_vertex[surface.mesh.origin[h]]] / scale_;
+  surface.wedge_density[h] = static_cast<float>(greater(relative, 1e-12));
+}
+
+void FindDensity::step(Surface& surface, Arena& arena) {
+  const std::size_t halfedges = surface.mesh.halfedge_count(), faces = surface.mesh.face_count();
+  switch (phase_) {
+    case Phase::fill:
+      if (!sweep_.over<HalfedgeId>(halfedges, [&](HalfedgeId h) { fill(surface, h); })) return;
+      break;
+    case Phase::mean:
+      if (sweep_.over<FaceId>(faces, [&](FaceId f) { face_mean_[f] = mean_of_corners(surface, f); })) {
+        phase_ = Phase::spread;
+      }
+      return;
+    case Phase::spread:
+      if (!sweep_.over<HalfedgeId>(halfedges, [&](HalfedgeId h) { spread_means(surface, h, face_mean_); })) return;
+      ++pass_;
+      break;
+    case Phase::done:
+      return;
+  }
+  phase_ = pass_ < options_.smoothing_passes ? Phase::mean : Phase::done;
+  if (done()) arena.rewind_scratch(mark_);
+}
+
+Status find_density(Surface& surface, const DensityOptions& options, Arena& arena) {
   const ScratchScope scope(arena);
-  Span<float> face_mean;
-  ISOLOD_TRY(arena.scratch(surface.mesh.face_count(), face_mean));
-  for (std::uint32_t pass = 0; pass < options.smoothing_passes; ++pass) smooth_once(surface, face_mean);
+  FindDensity stage;
+  ISOLOD_TRY(stage.begin(surface, options, arena));
+  while (!stage.done()) stage.step(surface, arena);
   return {};
 }
 

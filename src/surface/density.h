@@ -7,6 +7,7 @@
 // and never over a line.
 #pragma once
 
+#include "base/sweep.h"
 #include "isolod/options.h"
 #include "mesh/surface.h"
 
@@ -19,10 +20,32 @@ struct DensityOptions {
   std::uint32_t smoothing_passes = 0;
 };
 
-/// Fills `surface.wedge_density`, 4 bytes a halfedge of results; left empty when uniform. Curvature is made free of
-/// scale by the diagonal of the bounding box and clamped to [1, 256] before it is raised to gamma. O(n (1 + passes))
-/// time; 4 bytes a face of scratch. Fails with density_not_positive on a given density that is not a positive finite
-/// number.
+/// A stage: begin, step until done. Fills `surface.wedge_density`, 4 bytes a halfedge of results; left empty when
+/// uniform. Curvature is made free of scale by the diagonal of the bounding box and clamped to [1, 256] before it is
+/// raised to gamma. O(n (1 + passes)) time; 4 bytes a face of scratch, given back at the end.
+class FindDensity {
+ public:
+  /// Fails with density_not_positive on a given density that is not a positive finite number, and with invalid_option
+  /// where none is given.
+  Status begin(Surface& surface, const DensityOptions& options, Arena& arena);
+  /// A range of halfedges or faces.
+  void step(Surface& surface, Arena& arena);
+  bool done() const { return phase_ == Phase::done; }
+
+ private:
+  enum class Phase : std::uint8_t { fill, mean, spread, done };
+  void fill(Surface& surface, HalfedgeId h) const;
+
+  DensityOptions options_;
+  Phase phase_ = Phase::done;
+  Sweep sweep_;
+  double scale_ = 1;  // curvature is multiplied by it, the diagonal; given densities are divided by it, the greatest
+  std::uint32_t pass_ = 0;
+  Span<float> face_mean_;
+  ArenaMark mark_;
+};
+
+/// The whole stage at once.
 Status find_density(Surface& surface, const DensityOptions& options, Arena& arena);
 
 }  // namespace v1

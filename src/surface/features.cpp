@@ -18,26 +18,21 @@ void mark(Surface& surface, HalfedgeId h, LineKind kind) {
   if (const HalfedgeId t = surface.mesh.twin[h]; !t.is_none()) surface.line[t] = surface.line[h];
 }
 
-void mark_geometry(Surface& surface, double feature_angle) {
-  for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
-    const HalfedgeId t = surface.mesh.twin[h];
-    if (t.is_none()) {
-      mark(surface, h, line_boundary);
-    } else if (h < t && feature_angle > 0 &&
-               angle_between(area_vector(surface, face(h)), area_vector(surface, face(t))) > feature_angle) {
-      mark(surface, h, line_sharp);
-    }
+void mark_geometry(Surface& surface, HalfedgeId h, double feature_angle) {
+  const HalfedgeId t = surface.mesh.twin[h];
+  if (t.is_none()) {
+    mark(surface, h, line_boundary);
+  } else if (h < t && feature_angle > 0 &&
+             angle_between(area_vector(surface, face(h)), area_vector(surface, face(t))) > feature_angle) {
+    mark(surface, h, line_sharp);
   }
 }
 
-void mark_materials(Surface& surface) {
+void mark_material(Surface& surface, HalfedgeId h) {
   const std::uint32_t* material = surface.view->triangle_materials;
-  if (material == nullptr) return;
-  for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
-    const HalfedgeId t = surface.mesh.twin[h];
-    if (t.is_none() || !(h < t)) continue;
-    if (material[surface.source_face[face(h)]] != material[surface.source_face[face(t)]]) mark(surface, h, line_tagged);
-  }
+  const HalfedgeId t = surface.mesh.twin[h];
+  if (t.is_none() || !(h < t)) return;
+  if (material[surface.source_face[face(h)]] != material[surface.source_face[face(t)]]) mark(surface, h, line_tagged);
 }
 
 /// Repair may have made several vertices of one of the caller's: copies[start[v]] to copies[start[v + 1]] are v's.
@@ -105,16 +100,48 @@ bool is_corner(const Surface& surface, VertexId v, double corner_angle) {
 
 }  // namespace
 
-Status find_features(Surface& surface, const FeatureOptions& options, Arena& arena) {
+Status FindFeatures::begin(Surface& surface, const FeatureOptions& options, Arena& arena) {
+  options_ = options;
+  phase_ = Phase::geometry;
+  sweep_ = {};
   ISOLOD_TRY(arena.result(surface.mesh.halfedge_count(), surface.line));
   ISOLOD_TRY(arena.result(surface.mesh.vertex_count(), surface.corner));
   for (std::uint8_t& l : surface.line) l = line_none;
-  mark_geometry(surface, options.feature_angle);
-  mark_materials(surface);
-  ISOLOD_TRY(mark_tags(surface, arena));
-  for (VertexId v : Ids<VertexId>(surface.mesh.vertex_count())) {
-    surface.corner[v] = is_corner(surface, v, options.corner_angle);
+  return {};
+}
+
+Status FindFeatures::step(Surface& surface, Arena& arena) {
+  const std::size_t halfedges = surface.mesh.halfedge_count();
+  switch (phase_) {
+    case Phase::geometry:
+      if (sweep_.over<HalfedgeId>(halfedges,
+                                  [&](HalfedgeId h) { mark_geometry(surface, h, options_.feature_angle); })) {
+        phase_ = surface.view->triangle_materials == nullptr ? Phase::tags : Phase::materials;
+      }
+      return {};
+    case Phase::materials:
+      if (sweep_.over<HalfedgeId>(halfedges, [&](HalfedgeId h) { mark_material(surface, h); })) phase_ = Phase::tags;
+      return {};
+    case Phase::tags:
+      phase_ = Phase::corners;
+      return mark_tags(surface, arena);
+    case Phase::corners:
+      if (sweep_.over<VertexId>(surface.mesh.vertex_count(), [&](VertexId v) {
+            surface.corner[v] = is_corner(surface, v, options_.corner_angle);
+          })) {
+        phase_ = Phase::done;
+      }
+      return {};
+    case Phase::done:
+      return {};
   }
+  return {};
+}
+
+Status find_features(Surface& surface, const FeatureOptions& options, Arena& arena) {
+  FindFeatures stage;
+  ISOLOD_TRY(stage.begin(surface, options, arena));
+  while (!stage.done()) ISOLOD_TRY(stage.step(surface, arena));
   return {};
 }
 

@@ -6,6 +6,7 @@
 // angle.
 #pragma once
 
+#include "base/sweep.h"
 #include "mesh/surface.h"
 
 namespace isolod {
@@ -16,9 +17,25 @@ struct FeatureOptions {
   double corner_angle = 30;  ///< degrees
 };
 
-/// Fills `surface.line` and `surface.corner`, allocated as results: 1 byte a halfedge, 1 a vertex. O(n) time; with
-/// tagged edges 8 bytes a vertex of scratch. Fails with index_out_of_range on a tagged edge that names no vertex; a tag
-/// between vertices that share no edge after repair is passed over.
+/// A stage: begin, step until done. Fills `surface.line` and `surface.corner`, allocated as results: 1 byte a halfedge,
+/// 1 a vertex. O(n) time; with tagged edges 8 bytes a vertex of scratch.
+class FindFeatures {
+ public:
+  Status begin(Surface& surface, const FeatureOptions& options, Arena& arena);
+  /// A range of halfedges or vertices, or all tags. Fails with index_out_of_range on a tagged edge that names no
+  /// vertex; a tag between vertices that share no edge after repair is passed over.
+  Status step(Surface& surface, Arena& arena);
+  bool done() const { return phase_ == Phase::done; }
+
+ private:
+  enum class Phase : std::uint8_t { geometry, materials, tags, corners, done };
+
+  FeatureOptions options_;
+  Phase phase_ = Phase::done;
+  Sweep sweep_;
+};
+
+/// The whole stage at once.
 Status find_features(Surface& surface, const FeatureOptions& options, Arena& arena);
 
 }  // namespace v1

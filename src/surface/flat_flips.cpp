@@ -53,21 +53,38 @@ void flip_with_densities(Surface& surface, Triangulation& t, HalfedgeId h) {
   density[prev(g)] = at_d;
 }
 
+bool wants_flip(const Surface& surface, const Triangulation& t, HalfedgeId h, double tolerance) {
+  if (!(h < surface.mesh.twin[h]) || surface.mesh.is_boundary(h) || surface.line[h] != line_none) return false;
+  const Quad q = quad_of(surface, h);
+  return is_not_delaunay(q) && is_flat(q, tolerance) && is_convex(q, tolerance) && can_flip(t, h);
+}
+
 }  // namespace
 
-void flip_flat_edges(Surface& surface, double tolerance, std::uint32_t most_sweeps) {
+void FlipFlatEdges::begin(double tolerance, std::uint32_t most_sweeps) {
+  tolerance_ = tolerance;
+  sweeps_left_ = most_sweeps;
+  flips_ = 0;
+  sweep_ = {};
+}
+
+void FlipFlatEdges::step(Surface& surface) {
   Triangulation t{surface.mesh, surface.line};
-  for (std::uint32_t sweep = 0; sweep < most_sweeps; ++sweep) {
-    std::uint32_t flips = 0;
-    for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
-      if (!(h < surface.mesh.twin[h]) || surface.mesh.is_boundary(h) || surface.line[h] != line_none) continue;
-      const Quad q = quad_of(surface, h);
-      if (!is_not_delaunay(q) || !is_flat(q, tolerance) || !is_convex(q, tolerance) || !can_flip(t, h)) continue;
-      flip_with_densities(surface, t, h);
-      ++flips;
-    }
-    if (flips == 0) return;
+  if (!sweep_.over<HalfedgeId>(surface.mesh.halfedge_count(), [&](HalfedgeId h) {
+        if (!wants_flip(surface, t, h, tolerance_)) return;
+        flip_with_densities(surface, t, h);
+        ++flips_;
+      })) {
+    return;
   }
+  sweeps_left_ = flips_ == 0 ? 0 : sweeps_left_ - 1;
+  flips_ = 0;
+}
+
+void flip_flat_edges(Surface& surface, double tolerance, std::uint32_t most_sweeps) {
+  FlipFlatEdges stage;
+  stage.begin(tolerance, most_sweeps);
+  while (!stage.done()) stage.step(surface);
 }
 
 }  // namespace v1

@@ -5,6 +5,7 @@
 // (opposite angles that sum to at most two right angles). Lines stay.
 #pragma once
 
+#include "base/sweep.h"
 #include "mesh/surface.h"
 
 namespace isolod {
@@ -14,8 +15,22 @@ inline namespace v1 {
 /// what 32-bit coordinates leave open.
 double flatness_tolerance(const Surface& surface);
 
-/// Flips edges of flat regions in sweeps, at most `most_sweeps`, until all are Delaunay. Wedge densities go with their
-/// corners. O(n) time a sweep, no memory.
+/// A stage: begin, step until done. Flips edges of flat regions, sweep after sweep, until all are Delaunay or the
+/// sweeps are over. Wedge densities go with their corners. O(n) time a sweep, no memory.
+class FlipFlatEdges {
+ public:
+  void begin(double tolerance, std::uint32_t most_sweeps);
+  /// A range of halfedges.
+  void step(Surface& surface);
+  bool done() const { return sweeps_left_ == 0; }
+
+ private:
+  double tolerance_ = 0;
+  std::uint32_t sweeps_left_ = 0, flips_ = 0;
+  Sweep sweep_;
+};
+
+/// The whole stage at once.
 void flip_flat_edges(Surface& surface, double tolerance, std::uint32_t most_sweeps);
 
 }  // namespace v1

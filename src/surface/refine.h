@@ -6,27 +6,54 @@
 // and the caller's triangle numbers are handed on.
 #pragma once
 
-#include "mesh/surface.h"
+#include "surface/flat_flips.h"
 
 namespace isolod {
 inline namespace v1 {
 
-struct Refine {
+/// A mesh under construction.
+struct MeshDraft {
+  Span<VertexId> origin;
+  Span<std::uint8_t> line;
+  Span<float> density;
+  Span<std::uint32_t> source_face;
+  Span<Vec3> midpoint;
+  Span<std::uint8_t> corner;
+  std::uint32_t face_count = 0;
+};
+
+/// A stage: begin, step until done.
+class Refine {
+ public:
   /// Edges longer than `limit` times the wished edge length 1 / (line_rate * sqrt(d_s)) are split.
   Status begin(Surface& surface, double line_rate, double limit, Arena& arena);
-  /// One round: O(n) time. The new mesh is built in scratch and replaces the old one among the results.
+  /// A range of halfedges or faces of one round. The new mesh is built in scratch and replaces the old one among the
+  /// results; scratch is given back at the end and on failure. O(n) time a round.
   Status step(Surface& surface, Arena& arena);
-  bool done() const { return done_; }
+  bool done() const { return phase_ == Phase::done; }
 
   static constexpr std::uint32_t most_rounds = 40;
 
  private:
+  enum class Phase : std::uint8_t { flip, choose, split, connect, done };
+  Status run_phase(Surface& surface, Arena& arena);
+  void begin_round(Surface& surface);
+  void choose(const Surface& surface, HalfedgeId h);
+  Status begin_draft(const Surface& surface, Arena& arena);
+  Status take_over(Surface& surface, Arena& arena);
+
   double line_rate_ = 0;
   double limit_ = 0;
   double tolerance_ = 0;
   ArenaMark mark_;
+  Phase phase_ = Phase::done;
   std::uint32_t rounds_ = 0;
-  bool done_ = true;
+  Sweep sweep_;
+  FlipFlatEdges flips_;
+  Span<VertexId> middle_;  // per halfedge: the vertex at its middle, or none where the edge is not split
+  std::uint32_t split_edges_ = 0, split_halfedges_ = 0;
+  MeshDraft draft_;
+  Connect connect_;
 };
 
 }  // namespace v1

@@ -1,0 +1,30 @@
+// A linear pass that stops and goes on.
+#pragma once
+
+#include "base/index.h"
+
+namespace isolod {
+inline namespace v1 {
+
+/// How many elements one piece of work visits. A run that is spread over many calls stops between pieces.
+constexpr std::size_t elements_a_piece = 4096;
+
+/// Visits the elements below `count` in order, a piece a call. It starts anew once it has come to the end.
+class Sweep {
+ public:
+  /// Calls visit(id) for the next piece; true when the last element has been visited.
+  template <class Id, class Visit>
+  bool over(std::size_t count, Visit visit) {
+    const std::size_t end = count - next_ < elements_a_piece ? count : next_ + elements_a_piece;
+    for (; next_ < end; ++next_) visit(Id{static_cast<std::uint32_t>(next_)});
+    if (next_ < count) return false;
+    next_ = 0;
+    return true;
+  }
+
+ private:
+  std::size_t next_ = 0;
+};
+
+}  // namespace v1
+}  // namespace isolod

@@ -3,9 +3,8 @@
 
 #include <cmath>
 
+#include "support/frames.h"
 #include "support/plane_shapes.h"
-
-#include <doctest/doctest.h>
 
 using namespace isolod;
 using support::Piece;
@@ -17,14 +16,8 @@ namespace {
 struct Grounded {
   explicit Grounded(double line_rate, const support::Edges& tagged = {}, std::uint32_t n = 24)
       : piece(support::square_grid(n), 0, tagged) {
-    MakeFrames stage;
-    FrameOptions options;
-    options.line_rate = line_rate;
-    Arena& arena = piece.block.arena;
-    REQUIRE(stage.begin(piece.surface, options, arena).is_ok());
-    while (!stage.done()) REQUIRE(stage.step(arena).is_ok());
-    REQUIRE(stage.finish(frames, arena).is_ok());
-    REQUIRE(ground.begin(piece.surface, frames, arena).is_ok());
+    frames = support::frames_of(piece.surface, line_rate, piece.block.arena);
+    REQUIRE(ground.begin(piece.surface, frames, piece.block.arena).is_ok());
   }
 
   Vec3 space(const LocalPlace& p) const { return position_of(piece.surface, {p.face, p.w[1], p.w[2]}); }

@@ -7,32 +7,16 @@
 #include <set>
 
 #include "base/predicates.h"
+#include "support/frames.h"
 #include "support/plane_shapes.h"
-#include "support/stages.h"
 
 using namespace isolod;
 using support::Prepared;
+using support::rate_for;
 
 namespace {
 
-Frames frames_of(Prepared& p, double line_rate) {
-  MakeFrames stage;
-  FrameOptions options;
-  options.line_rate = line_rate;
-  Frames frames;
-  Arena& arena = p.block.arena;
-  const std::size_t back = arena.mark().back;
-  REQUIRE(stage.begin(p.surface, options, arena).is_ok());
-  for (std::size_t step = 0; step < 100000 && !stage.done(); ++step) REQUIRE(stage.step(arena).is_ok());
-  REQUIRE(stage.done());
-  REQUIRE(stage.finish(frames, arena).is_ok());
-  CHECK(arena.mark().back == back);
-  return frames;
-}
-
-double rate_for(const Surface& surface, std::uint32_t count) {
-  return solve_rates(integrate_density(surface), count, Calibration::corrected).line;
-}
+Frames frames_of(Prepared& p, double line_rate) { return support::frames_of(p.surface, line_rate, p.block.arena); }
 
 std::vector<FaceId> core_of(const Frames& frames, std::uint32_t frame) {
   std::vector<FaceId> core;

@@ -7,11 +7,10 @@
 
 #include "base/predicates.h"
 #include "isolod/measure.h"
-#include "pipeline/state.h"
 #include "result/lift.h"
 #include "support/checker.h"
+#include "support/frames.h"
 #include "support/plane_shapes.h"
-#include "support/stages.h"
 
 using namespace isolod;
 
@@ -26,30 +25,18 @@ shapes::Shape flat_square() {
 }
 
 /// A stitched mesh with few iterations behind it, its frames, and a relaxation that has begun.
-struct Relaxed {
+struct Relaxed : support::Framed {
   explicit Relaxed(shapes::Shape from, std::uint32_t count, double feature_angle = 0, std::vector<double> wish = {})
-      : shape(std::move(from)), wished(std::move(wish)), view(support::view_of(shape)) {
-    Options options = support::with_vertices(count, feature_angle);
-    options.lloyd_iterations = 0;
-    if (!wished.empty()) {
-      view.vertex_density = wished.data();
-      options.density = DensitySource::given;
-    }
-    REQUIRE(remesher.begin(view, options, {}, block.arena).is_ok());
-    support::advance_past(remesher, "stitch");
-    s = *remesher.state();
-    MakeFrames stage;
-    FrameOptions frame_options;
-    frame_options.line_rate = s.rates.line;
-    REQUIRE(stage.begin(s.surface, frame_options, block.arena).is_ok());
-    while (!stage.done()) REQUIRE(stage.step(block.arena).is_ok());
-    REQUIRE(stage.finish(frames, block.arena).is_ok());
-    REQUIRE(relaxation.begin(s.surface, frames, mesh(), s.samples, {options.weight, 1.8}, block.arena).is_ok());
+      : Framed(std::move(from), options_for(count, feature_angle), std::move(wish)) {
+    REQUIRE(relaxation.begin(s.surface, frames, mesh(), s.samples, {s.options.weight, 1.8}, block.arena).is_ok());
     REQUIRE(ground.begin(s.surface, frames, block.arena).is_ok());
   }
 
-  Triangulation& mesh() { return s.stitch.mesh(); }
-  Vec3 at(VertexId v) const { return position_of(s.surface, s.samples, SampleId{v.value}); }
+  static Options options_for(std::uint32_t count, double feature_angle) {
+    Options options = support::with_vertices(count, feature_angle);
+    options.lloyd_iterations = 0;
+    return options;
+  }
   shapes::Shape lifted() {
     shapes::Shape result;
     result.positions.resize(3 * s.samples.count());
@@ -102,13 +89,6 @@ struct Relaxed {
     return result;
   }
 
-  shapes::Shape shape;
-  std::vector<double> wished;
-  MeshView view;
-  support::Block block;
-  Remesher remesher;
-  Remesher::State s;
-  Frames frames;
   Relaxation relaxation;
   FrameGround ground;
 };

@@ -5,29 +5,18 @@
 
 #include <string>
 
-#include "pipeline/state.h"
 #include "relax/relaxation.h"
+#include "support/frames.h"
 #include "support/plane_shapes.h"
-#include "support/stages.h"
 
 using namespace isolod;
 
 namespace {
 
 /// A relaxed coarse mesh with its frames.
-struct Coarse {
+struct Coarse : support::Framed {
   Coarse(const std::string& name, std::size_t triangles, std::uint32_t count)
-      : shape(support::made(name, triangles)), view(support::view_of(shape)) {
-    REQUIRE(remesher.begin(view, support::with_vertices(count), {}, block.arena).is_ok());
-    support::advance_past(remesher, "stitch");
-    s = *remesher.state();
-    mesh = s.stitch.mesh();
-    MakeFrames stage;
-    FrameOptions options;
-    options.line_rate = s.rates.line;
-    REQUIRE(stage.begin(s.surface, options, block.arena).is_ok());
-    while (!stage.done()) REQUIRE(stage.step(block.arena).is_ok());
-    REQUIRE(stage.finish(frames, block.arena).is_ok());
+      : Framed(support::made(name, triangles), support::with_vertices(count)), mesh(s.stitch.mesh()) {
     const ScratchScope scope(block.arena);
     Relaxation relaxation;
     REQUIRE(relaxation.begin(s.surface, frames, mesh, s.samples, {}, block.arena).is_ok());
@@ -50,13 +39,7 @@ struct Coarse {
            p.weight1 + p.weight2 <= 1 + 1e-15 && !s.samples.held[sample];
   }
 
-  shapes::Shape shape;
-  MeshView view;
-  support::Block block;
-  Remesher remesher;
-  Remesher::State s;
   Triangulation mesh;
-  Frames frames;
 };
 
 /// For each vertex of the fine mesh that was an edge: its two old ends, found from the fine mesh alone.

@@ -12,9 +12,11 @@
 
 #if defined(ISOLOD_POISONED)
 #include <sanitizer/asan_interface.h>
+#define ISOLOD_POISON(address, bytes) ASAN_POISON_MEMORY_REGION(address, bytes)
+#define ISOLOD_UNPOISON(address, bytes) ASAN_UNPOISON_MEMORY_REGION(address, bytes)
 #else
-#define ASAN_POISON_MEMORY_REGION(address, bytes) void(0)
-#define ASAN_UNPOISON_MEMORY_REGION(address, bytes) void(0)
+#define ISOLOD_POISON(address, bytes) void(0)
+#define ISOLOD_UNPOISON(address, bytes) void(0)
 #endif
 
 namespace isolod {
@@ -30,7 +32,7 @@ Arena::Arena(void* block, std::size_t bytes) {
   if (block == nullptr || bytes < skipped + alignment) return;
   block_ = static_cast<unsigned char*>(block) + skipped;
   capacity_ = (bytes - skipped) / alignment * alignment;
-  ASAN_POISON_MEMORY_REGION(block_, capacity_);
+  ISOLOD_POISON(block_, capacity_);
 }
 
 Status Arena::take(std::size_t count, std::size_t size, bool at_front, void*& piece) {
@@ -45,20 +47,20 @@ Status Arena::take(std::size_t count, std::size_t size, bool at_front, void*& pi
     back_ += bytes;
     piece = block_ + (capacity_ - back_);
   }
-  ASAN_UNPOISON_MEMORY_REGION(piece, bytes);
+  ISOLOD_UNPOISON(piece, bytes);
   if (used() > high_water_) high_water_ = used();
   return {};
 }
 
 void Arena::rewind_results(ArenaMark mark) {
   ISOLOD_ASSERT(mark.front <= front_);
-  ASAN_POISON_MEMORY_REGION(block_ + mark.front, front_ - mark.front);
+  ISOLOD_POISON(block_ + mark.front, front_ - mark.front);
   front_ = mark.front;
 }
 
 void Arena::rewind_scratch(ArenaMark mark) {
   ISOLOD_ASSERT(mark.back <= back_);
-  ASAN_POISON_MEMORY_REGION(block_ + (capacity_ - back_), back_ - mark.back);
+  ISOLOD_POISON(block_ + (capacity_ - back_), back_ - mark.back);
   back_ = mark.back;
 }
 

@@ -25,7 +25,8 @@ void piece_corners(std::uint32_t p, Weights (&corner)[3]) {
   std::uint32_t row = 0, first = 0;
   while (p >= first + 2 * row + 1) first += 2 * row + 1, ++row;
   const std::uint32_t place = p - first;
-  const double across = place / 2, down = row;
+  const std::uint32_t column = place / 2;
+  const double across = column, down = row;
   const auto at = [](double r, double a) { return Weights{(r - a) / rows, a / rows}; };
   if (place % 2 == 0) {
     corner[0] = at(down, across), corner[1] = at(down + 1, across), corner[2] = at(down + 1, across + 1);

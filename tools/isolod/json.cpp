@@ -34,7 +34,7 @@ void JsonWriter::begin_member(const char* key) {
   if (!first_) text_ += ',';
   first_ = false;
   text_ += '\n';
-  text_.append(static_cast<std::size_t>(2 * depth_), ' ');
+  text_.append(2 * static_cast<std::size_t>(depth_), ' ');
   if (key != nullptr) text_ += json_quoted(key) + ": ";
 }
 
@@ -49,7 +49,7 @@ void JsonWriter::close(char bracket) {
   --depth_;
   if (!first_) {
     text_ += '\n';
-    text_.append(static_cast<std::size_t>(2 * depth_), ' ');
+    text_.append(2 * static_cast<std::size_t>(depth_), ' ');
   }
   text_ += bracket;
   first_ = false;

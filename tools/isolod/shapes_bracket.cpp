@@ -42,15 +42,16 @@ struct Bracket {
 void base_plate(Bracket& b) {
   const int s = b.steps;
   for (int cell = 0; cell < 6; ++cell) {
+    const int column = cell % 3, row = cell / 3;
     SquareCell square;
     square.steps = s;
     square.rings = rings_of(s, 0.45);
-    square.u = fillet_end + cell % 3;
-    square.v = cell / 3;
-    square.hole_radius = cell % 3 == 1 ? 0 : small_radius;
+    square.u = fillet_end + column;
+    square.v = row;
+    square.hole_radius = column == 1 ? 0 : small_radius;
     square_cell(b.builder, square, false, [](double u, double v) { return Point{u, v, 0}; });
     square_cell(b.builder, square, true, [](double u, double v) { return Point{u, v, thickness}; });
-    if (cell % 3 == 1) continue;
+    if (column == 1) continue;
     patch(b.builder, 4 * s, b.levels, false, [&](int i, int k) {
       const Planar p = square.hole(i % (4 * s));
       return Point{p.u, p.v, b.level(k)};

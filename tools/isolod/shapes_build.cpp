@@ -1,6 +1,7 @@
 // The builder that welds equal places, and the own sine and cosine.
 #include "shapes_build.h"
 
+#include <cmath>
 #include <cstring>
 
 namespace shapes {
@@ -29,7 +30,7 @@ Direction direction(double turns) {
 }
 
 int whole(double value, int least) {
-  const int n = static_cast<int>(value + 0.5);
+  const int n = static_cast<int>(std::floor(value + 0.5));
   return n < least ? least : n;
 }
 

@@ -54,11 +54,12 @@ void make_plate(int holes, std::size_t triangles, Shape& shape) {
   while (cell_triangles(steps + 1) - wanted < wanted - cell_triangles(steps)) ++steps;
   const auto place = [](double u, double v) { return Point{u, v, 0}; };
   for (int cell = 0; cell < columns * rows; ++cell) {
+    const int column = cell % columns, row = cell / columns;
     SquareCell square;
     square.steps = steps;
     square.rings = rings_of(steps, 0.43);
-    square.u = cell % columns;
-    square.v = cell / columns;
+    square.u = column;
+    square.v = row;
     square.hole_radius = cell < holes ? 0.3 : 0;
     square_cell(builder, square, true, place);
   }

@@ -75,7 +75,8 @@ void make_spheres(std::size_t triangles, Shape& shape) {
   Builder builder(shape);
   const int steps = icosphere_steps(double(triangles) / 500);
   for (int i = 0; i < 500; ++i) {
-    const Point centre = {double(i % 10), double(i / 10 % 10), double(i / 100)};
+    const int column = i % 10, row = i / 10 % 10, layer = i / 100;
+    const Point centre = {double(column), double(row), double(layer)};
     const double radius = 0.3 + 0.01 * (i * 7 % 11);
     icosphere(builder, steps, [&](Point d) { return centre + d * radius; });
   }

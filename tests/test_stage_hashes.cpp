@@ -21,7 +21,16 @@ struct Hand {
   Hand() {
     const auto set = [](auto& span, auto& items) { span = {items.data(), items.size()}; };
     set(s.repaired.triangles, triangles);
+    set(s.repaired.source_vertex, source_vertex);
+    set(s.repaired.source_triangle, source_triangle);
     set(s.surface.mesh.origin, origin);
+    set(s.surface.source_face, source_face);
+    set(s.surface.midpoint, midpoint);
+    set(s.surface.corner, corner);
+    set(s.lines.start, line_start);
+    set(s.chart_start, chart_start);
+    set(s.samples.anchor, anchor);
+    set(s.samples.held, held);
     set(s.surface.line, line);
     set(s.surface.wedge_density, density);
     set(s.atlas.chart_of_face, charts);
@@ -32,13 +41,20 @@ struct Hand {
     set(s.stitch.mesh().mesh.origin, stitched);
     set(s.positions, positions);
     set(s.triangles, corners);
+    s.first_rates = {0.75, 1.25};
+    s.plan.splits = 1;
+    s.plan.first_count = 100;
     s.rates.line = 1.5;
     s.rates.surface = 2.5;
   }
   Hand(const Hand&) = delete;
 
   std::vector<VertexId> triangles{{0}, {1}, {2}}, origin{{3}, {1}, {2}}, stitched{{4}, {5}, {6}};
-  std::vector<std::uint8_t> line{1, 0, 4};
+  std::vector<std::uint8_t> line{1, 0, 4}, corner{0, 1}, held{1, 0};
+  std::vector<std::uint32_t> source_vertex{0, 1, 1}, source_triangle{0, 2}, source_face{0, 0, 1};
+  std::vector<std::uint32_t> line_start{0, 2}, chart_start{0, 1, 2};
+  std::vector<Vec3> midpoint{{1, 2, 3}};
+  std::vector<LineAnchor> anchor{{HalfedgeId{3}, 0.5}, {HalfedgeId{4}, 0.25}};
   std::vector<float> density{1, 2, 0.5F};
   std::vector<std::uint32_t> charts{0, 1}, corners{2, 1, 0};
   std::vector<Vec2f> uv{{0.25F, 0.5F}, {1, 2}};
@@ -52,7 +68,7 @@ struct Hand {
 using Hash = std::uint64_t (*)(const State&);
 const std::map<std::string, Hash> hashes = {
     {"repaired", hash_repaired},
-    {"connectivity", hash_connectivity},
+    {"surface", hash_surface},
     {"lines", hash_lines},
     {"density", hash_density},
     {"rates", hash_rates},
@@ -82,10 +98,22 @@ const std::vector<Change> changes = {
     {"repaired", [](Hand& h) { h.triangles[2] = VertexId{9}; }},
     {"repaired", [](Hand& h) { std::swap(h.triangles[0], h.triangles[1]); }},
     {"repaired", [](Hand& h) { --h.s.repaired.triangles.count; }},
-    {"connectivity", [](Hand& h) { h.origin[0] = VertexId{9}; }},
-    {"connectivity", [](Hand& h) { h.origin[2] = VertexId{9}; }},
-    {"connectivity", [](Hand& h) { std::swap(h.origin[0], h.origin[1]); }},
-    {"connectivity", [](Hand& h) { --h.s.surface.mesh.origin.count; }},
+    {"repaired", [](Hand& h) { h.source_vertex[2] = 2; }},
+    {"repaired", [](Hand& h) { h.source_triangle[1] = 1; }},
+    {"surface", [](Hand& h) { h.source_face[1] = 1; }},
+    {"surface", [](Hand& h) { h.midpoint[0].z = 4; }},
+    {"lines", [](Hand& h) { h.corner[0] = 1; }},
+    {"rates", [](Hand& h) { h.s.first_rates.line = 2; }},
+    {"rates", [](Hand& h) { h.s.plan.splits = 2; }},
+    {"rates", [](Hand& h) { h.s.plan.first_count = 101; }},
+    {"line_samples", [](Hand& h) { h.line_start[1] = 1; }},
+    {"places", [](Hand& h) { h.chart_start[1] = 2; }},
+    {"samples", [](Hand& h) { h.anchor[1].along = 0.5; }},
+    {"samples", [](Hand& h) { h.held[1] = 1; }},
+    {"surface", [](Hand& h) { h.origin[0] = VertexId{9}; }},
+    {"surface", [](Hand& h) { h.origin[2] = VertexId{9}; }},
+    {"surface", [](Hand& h) { std::swap(h.origin[0], h.origin[1]); }},
+    {"surface", [](Hand& h) { --h.s.surface.mesh.origin.count; }},
     {"lines", [](Hand& h) { h.line[0] = 2; }},
     {"lines", [](Hand& h) { h.line[2] = 12; }},
     {"lines", [](Hand& h) { std::swap(h.line[0], h.line[1]); }},

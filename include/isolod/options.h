@@ -31,6 +31,21 @@ enum class Centroids : std::uint8_t {
   exact,  ///< cells clipped against the original triangles (section 4.4.1)
 };
 
+/// Over what the surface is laid into the plane.
+enum class AtlasKind : std::uint8_t {
+  charts,  ///< many small charts of little stretch
+  single,  ///< one chart a component, cut open where it has to be (sections 4.1 and 4.2); falls back to charts where
+           ///< its map folds
+};
+
+/// The order in which the error of rounding flows over triangles (section 3.3).
+enum class Fluency : std::uint8_t {
+  automatic,
+  tree,    ///< a spanning tree of the dual graph: any surface
+  region,  ///< a growing region: a connected surface of genus 0 with at most one boundary
+  strip,   ///< a single strip, some triangles halved: at most one boundary a component
+};
+
 struct Options {
   std::uint32_t vertex_count = 0;  ///< V: the result has exactly as many vertices
 
@@ -39,16 +54,37 @@ struct Options {
 
   DensitySource density = DensitySource::uniform;
   double gamma = 1;                    ///< exponent of the curvature transfer function, 0 to 8
-  std::uint32_t smoothing_passes = 0;  ///< low-pass passes over the density
+  std::uint32_t smoothing_passes = 0;  ///< low-pass passes over the density, at least
+  /// More passes the fewer vertices are asked for, ten for each time that the input has more: what is narrower than the
+  /// spacing can only be missed (section 6).
+  bool smooth_undersampled = true;
 
+  AtlasKind atlas = AtlasKind::charts;
   Calibration calibration = Calibration::corrected;
+  Fluency fluency = Fluency::automatic;
   LloydWeight weight = LloydWeight::equal;
   Centroids centroids = Centroids::fast;
   std::uint32_t lloyd_iterations = 40;  ///< of the two-dimensional relaxation
 
+  /// Relax once more in charts that overlap, so that no seam is left, coarse to fine on surfaces without lines. False:
+  /// all samples are diffused at once, and the first mesh is the result, as the paper has it.
+  bool remove_seams = true;
+
   bool weld = false;      ///< merge vertices at exactly equal positions first
   bool validate = false;  ///< check the whole result before it is handed out, also in unchecked builds
 };
+
+/// The paper as printed: one chart, its calibration, its weights, all samples diffused at once, seams where it was cut.
+inline Options paper_options(std::uint32_t vertex_count) {
+  Options options;
+  options.vertex_count = vertex_count;
+  options.atlas = AtlasKind::single;
+  options.calibration = Calibration::paper;
+  options.weight = LloydWeight::paper;
+  options.lloyd_iterations = 100;
+  options.remove_seams = false;
+  return options;
+}
 
 }  // namespace v1
 }  // namespace isolod

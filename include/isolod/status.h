@@ -39,6 +39,7 @@ struct [[nodiscard]] Status {
     truncated_file,        ///< the file ends before its contents do
     unsupported_feature,   ///< the file is valid but uses what is not read here
     invalid_result,        ///< validation found a broken invariant: a defect of this library
+    not_admitted,          ///< what an option forces is not for a surface of this topology
   };
 
   Code code = ok;

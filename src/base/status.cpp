@@ -43,6 +43,8 @@ const char* name(Status::Code code) {
       return "unsupported_feature";
     case Status::invalid_result:
       return "invalid_result";
+    case Status::not_admitted:
+      return "not_admitted";
   }
   return "unknown";
 }

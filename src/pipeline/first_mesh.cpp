@@ -95,7 +95,7 @@ Status step_calibrate(State& s, bool& done, std::uint64_t& units) {
   s.report.corners = integrals.corner_count;
   s.rates = solve_rates(integrals, s.options.vertex_count, s.options.calibration);
   s.has_lines = integrals.lines > 0;
-  plan_run(s, integrals, s.has_lines ? 0 : LevelPlan::most_splits);
+  plan_run(s, integrals, s.has_lines || !s.options.remove_seams ? 0 : LevelPlan::most_splits);
   if (s.rates.line > 0 && s.first_rates.line > 0) return {};
   return fail(Status::budget_too_small, Element::count, least_budget(s, integrals));
 }
@@ -237,11 +237,16 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
       return {};
     default:
       done = true;
+      if (!s.options.remove_seams) return {};
       return sample_features_anew(s.surface, s.options.weight, s.samples, *s.arena);
   }
 }
 
 Status step_levels(State& s, bool& done, std::uint64_t& units) {
+  if (!s.options.remove_seams) {
+    done = true;
+    return {};
+  }
   if (!s.stage_begun) {
     LevelOptions options;
     options.line_rate = s.rates.line;
@@ -289,12 +294,12 @@ Status step_validate(State& s, bool& done, std::uint64_t& units) {
 }  // namespace
 
 const StageEntry stage_entries[] = {
-    {"repair", step_repair, hash_repaired, 0.05},    {"halfedge", step_halfedge, hash_connectivity, 0.02},
+    {"repair", step_repair, hash_repaired, 0.05},    {"halfedge", step_halfedge, hash_surface, 0.02},
     {"features", step_features, hash_lines, 0.02},   {"density", step_density, hash_density, 0.02},
-    {"calibrate", step_calibrate, hash_rates, 0.01}, {"refine", step_refine, hash_connectivity, 0.02},
+    {"calibrate", step_calibrate, hash_rates, 0.01}, {"refine", step_refine, hash_surface, 0.02},
     {"atlas", step_atlas, hash_atlas, 0.4},          {"lines", step_lines, hash_line_samples, 0.01},
     {"diffuse", step_diffuse, hash_places, 0.02},    {"charts", step_charts, hash_places, 0.4},
-    {"stitch", step_stitch, hash_places, 0.02},      {"levels", step_levels, hash_samples, 0.5},
+    {"stitch", step_stitch, hash_samples, 0.02},     {"levels", step_levels, hash_samples, 0.5},
     {"lift", step_lift, hash_result, 0.01},          {"validate", step_validate, hash_result, 0.01},
 };
 const std::uint32_t stage_entry_count = sizeof stage_entries / sizeof stage_entries[0];

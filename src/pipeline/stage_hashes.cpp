@@ -10,59 +10,50 @@ namespace {
 
 using State = Remesher::State;
 
-template <class T, class Add>
-std::uint64_t hash_all(Span<T> items, Add add) {
-  ContentHash hash;
+template <class T>
+std::enable_if_t<std::is_arithmetic_v<T>> add(ContentHash& hash, T x) {
+  hash.add(x);
+}
+template <class Kind>
+void add(ContentHash& hash, Index<Kind> id) {
+  hash.add(id.value);
+}
+void add(ContentHash& hash, const Vec3& p) { hash.add(p.x), hash.add(p.y), hash.add(p.z); }
+void add(ContentHash& hash, const Vec2f& p) { hash.add(p.x), hash.add(p.y); }
+void add(ContentHash& hash, const Rates& r) { hash.add(r.line), hash.add(r.surface); }
+void add(ContentHash& hash, const LinePlace& p) { hash.add(p.edge), hash.add(p.along); }
+void add(ContentHash& hash, const LineAnchor& a) { hash.add(a.halfedge.value), hash.add(a.along); }
+void add(ContentHash& hash, const SurfacePlace& p) { hash.add(p.face.value), hash.add(p.weight1), hash.add(p.weight2); }
+template <class T>
+void add(ContentHash& hash, Span<T> items) {
   for (const auto& item : items) add(hash, item);
+}
+
+template <class... Parts>
+std::uint64_t hash_of(const Parts&... parts) {
+  ContentHash hash;
+  (add(hash, parts), ...);
   return hash.value();
 }
 
 }  // namespace
 
 std::uint64_t hash_repaired(const State& s) {
-  return hash_all(s.repaired.triangles, [](ContentHash& hash, VertexId v) { hash.add(v.value); });
+  return hash_of(s.repaired.triangles, s.repaired.source_vertex, s.repaired.source_triangle);
 }
-std::uint64_t hash_connectivity(const State& s) {
-  return hash_all(s.surface.mesh.origin, [](ContentHash& hash, VertexId v) { hash.add(v.value); });
+std::uint64_t hash_surface(const State& s) {
+  return hash_of(s.surface.mesh.origin, s.surface.source_face, s.surface.midpoint);
 }
-std::uint64_t hash_lines(const State& s) {
-  return hash_all(s.surface.line, [](ContentHash& hash, std::uint8_t l) { hash.add(std::uint32_t{l}); });
-}
-std::uint64_t hash_density(const State& s) {
-  return hash_all(s.surface.wedge_density, [](ContentHash& hash, float d) { hash.add(d); });
-}
-std::uint64_t hash_rates(const State& s) {
-  ContentHash hash;
-  hash.add(s.rates.line);
-  hash.add(s.rates.surface);
-  return hash.value();
-}
-std::uint64_t hash_atlas(const State& s) {
-  ContentHash hash;
-  for (std::uint32_t c : s.atlas.chart_of_face) hash.add(c);
-  for (const Vec2f& p : s.uv) hash.add(p.x), hash.add(p.y);
-  return hash.value();
-}
-std::uint64_t hash_line_samples(const State& s) {
-  return hash_all(s.lines.place, [](ContentHash& hash, const LinePlace& p) { hash.add(p.edge), hash.add(p.along); });
-}
-std::uint64_t hash_places(const State& s) {
-  return hash_all(s.places, [](ContentHash& hash, const SurfacePlace& p) {
-    hash.add(p.face.value), hash.add(p.weight1), hash.add(p.weight2);
-  });
-}
+std::uint64_t hash_lines(const State& s) { return hash_of(s.surface.line, s.surface.corner); }
+std::uint64_t hash_density(const State& s) { return hash_of(s.surface.wedge_density); }
+std::uint64_t hash_rates(const State& s) { return hash_of(s.rates, s.first_rates, s.plan.splits, s.plan.first_count); }
+std::uint64_t hash_atlas(const State& s) { return hash_of(s.atlas.chart_of_face, s.uv); }
+std::uint64_t hash_line_samples(const State& s) { return hash_of(s.lines.start, s.lines.place); }
+std::uint64_t hash_places(const State& s) { return hash_of(s.chart_start, s.places); }
 std::uint64_t hash_samples(const State& s) {
-  ContentHash hash;
-  for (const SurfacePlace& p : s.samples.place) hash.add(p.face.value), hash.add(p.weight1), hash.add(p.weight2);
-  for (VertexId v : s.stitch.mesh().mesh.origin) hash.add(v.value);
-  return hash.value();
+  return hash_of(s.samples.place, s.samples.anchor, s.samples.held, s.stitch.mesh().mesh.origin);
 }
-std::uint64_t hash_result(const State& s) {
-  ContentHash hash;
-  for (double x : s.positions) hash.add(x);
-  for (std::uint32_t v : s.triangles) hash.add(v);
-  return hash.value();
-}
+std::uint64_t hash_result(const State& s) { return hash_of(s.positions, s.triangles); }
 
 }  // namespace v1
 }  // namespace isolod

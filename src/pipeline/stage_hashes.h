@@ -7,7 +7,7 @@ namespace isolod {
 inline namespace v1 {
 
 std::uint64_t hash_repaired(const Remesher::State& s);
-std::uint64_t hash_connectivity(const Remesher::State& s);
+std::uint64_t hash_surface(const Remesher::State& s);
 std::uint64_t hash_lines(const Remesher::State& s);
 std::uint64_t hash_density(const Remesher::State& s);
 std::uint64_t hash_rates(const Remesher::State& s);

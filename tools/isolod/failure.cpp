@@ -34,6 +34,7 @@ constexpr Meaning meanings[] = {
     {Status::truncated_file, 24, "the file ends before its contents do"},
     {Status::unsupported_feature, 25, "valid, but of a kind that is not read or written here"},
     {Status::invalid_result, 26, "the result breaks one of the library's own promises; please report it"},
+    {Status::not_admitted, 27, "what an option forces is not for a surface of this topology"},
 };
 
 const Meaning* meaning_of(Status::Code code) {

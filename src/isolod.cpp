@@ -32,7 +32,12 @@
 #include "sample/track.cpp"
 
 #include "atlas/chart.cpp"
+#include "atlas/cut_graph.cpp"
 #include "atlas/dual_distance.cpp"
+#include "atlas/edge_metric.cpp"
+#include "atlas/greedy_cut.cpp"
+#include "atlas/loop_shortening.cpp"
+#include "atlas/loop_system.cpp"
 #include "atlas/partition.cpp"
 #include "atlas/regions.cpp"
 

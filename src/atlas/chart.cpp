@@ -7,12 +7,16 @@ inline namespace v1 {
 
 namespace {
 
+/// What a seam inside a chart is.
+enum class Seams : std::uint8_t { joined, cut };
+
 void connect_locally(const Surface& surface, Span<const std::uint32_t> chart_of_face, Span<const std::uint32_t> place,
-                     Chart& chart) {
+                     Seams seams, Chart& chart) {
   const std::uint32_t own = chart_of_face[chart.faces[0u]];
   for (HalfedgeId h : Ids<HalfedgeId>(chart.mesh.halfedge_count())) {
-    const HalfedgeId t = surface.mesh.twin[chart.on_surface(h)];
-    const bool inside = !t.is_none() && chart_of_face[face(t)] == own;
+    const HalfedgeId s = chart.on_surface(h), t = surface.mesh.twin[s];
+    const bool is_cut = seams == Seams::cut && (surface.line[s] & line_seam) != 0;
+    const bool inside = !t.is_none() && !is_cut && chart_of_face[face(t)] == own;
     chart.mesh.twin[h] = inside ? halfedge(FaceId{place[face(t)]}, t.value % 3) : none<HalfedgeId>();
     chart.mesh.origin[h] = none<VertexId>();
   }
@@ -32,15 +36,14 @@ void number_fan(Halfedges& mesh, HalfedgeId h, VertexId v) {
   } while (!turn.is_none() && turn != first);
 }
 
-}  // namespace
-
-Status build_chart(const Surface& surface, Span<const FaceId> faces, Span<const std::uint32_t> chart_of_face,
-                   Span<const std::uint32_t> place, Chart& chart, Arena& arena) {
-  chart.faces = faces;
+/// `chart.faces` is given.
+Status build(const Surface& surface, Span<const std::uint32_t> chart_of_face, Span<const std::uint32_t> place,
+             Seams seams, Chart& chart, Arena& arena) {
+  const Span<const FaceId> faces = chart.faces;
   const std::size_t corner_count = 3 * faces.count;
   ISOLOD_TRY(arena.scratch(corner_count, chart.mesh.origin));
   ISOLOD_TRY(arena.scratch(corner_count, chart.mesh.twin));
-  connect_locally(surface, chart_of_face, place, chart);
+  connect_locally(surface, chart_of_face, place, seams, chart);
   std::uint32_t vertex_count = 0;
   for (HalfedgeId h : Ids<HalfedgeId>(corner_count)) {
     if (chart.mesh.origin[h].is_none()) number_fan(chart.mesh, h, VertexId{vertex_count++});
@@ -52,6 +55,20 @@ Status build_chart(const Surface& surface, Span<const FaceId> faces, Span<const 
     chart.vertex[chart.mesh.origin[h]] = surface.mesh.origin[chart.on_surface(h)];
   }
   return {};
+}
+
+}  // namespace
+
+Status build_chart(const Surface& surface, Span<const FaceId> faces, Span<const std::uint32_t> chart_of_face,
+                   Span<const std::uint32_t> place, Chart& chart, Arena& arena) {
+  chart.faces = faces;
+  return build(surface, chart_of_face, place, Seams::joined, chart, arena);
+}
+
+Status build_cut_chart(const Surface& surface, Span<const FaceId> faces, Span<const std::uint32_t> chart_of_face,
+                       Span<const std::uint32_t> place, Chart& chart, Arena& arena) {
+  chart.faces = faces;
+  return build(surface, chart_of_face, place, Seams::cut, chart, arena);
 }
 
 HalfedgeId next_on_boundary(const Halfedges& mesh, HalfedgeId h) { return mesh.outgoing[mesh.target(h)]; }

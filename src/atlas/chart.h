@@ -35,6 +35,11 @@ struct Chart {
 Status build_chart(const Surface& surface, Span<const FaceId> faces, Span<const std::uint32_t> chart_of_face,
                    Span<const std::uint32_t> place, Chart& chart, Arena& arena);
 
+/// The same, but the chart is cut open along its edges with line_seam: they are boundaries on both sides, and a vertex
+/// on the cut has a local vertex for each of its fans. For charts that were cut to be planar (`Atlas::single`).
+Status build_cut_chart(const Surface& surface, Span<const FaceId> faces, Span<const std::uint32_t> chart_of_face,
+                       Span<const std::uint32_t> place, Chart& chart, Arena& arena);
+
 /// The kind of surface that a chart is.
 struct ChartTopology {
   std::uint32_t boundary_loops = 0;

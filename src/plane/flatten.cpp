@@ -1,6 +1,6 @@
 #include "plane/flatten.h"
 
-#include "base/predicates.h"
+#include "plane/chart_metric.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -10,24 +10,6 @@ namespace {
 constexpr std::uint32_t iterations_between_looks = 10;
 constexpr double least_iterations = 40;
 constexpr double residual_reduction = 1e-10;
-
-Status fill_metric(const Surface& surface, const Chart& chart, ChartMetric& metric, Arena& arena) {
-  ISOLOD_TRY(arena.scratch(chart.mesh.vertex_count(), metric.position));
-  ISOLOD_TRY(arena.scratch(chart.mesh.halfedge_count(), metric.cotangent));
-  ISOLOD_TRY(arena.scratch(chart.mesh.face_count(), metric.area));
-  for (VertexId v : Ids<VertexId>(chart.mesh.vertex_count())) metric.position[v] = surface.position(chart.vertex[v]);
-  for (FaceId f : Ids<FaceId>(chart.mesh.face_count())) {
-    Vec3 corner[3];
-    for (std::uint32_t k = 0; k < 3; ++k) corner[k] = metric.position[chart.mesh.origin[halfedge(f, k)]];
-    const double twice_area = length(cross(corner[1] - corner[0], corner[2] - corner[0]));
-    metric.area[f] = 0.5 * twice_area;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const Vec3 apex = corner[(k + 2) % 3];
-      metric.cotangent[halfedge(f, k)] = dot(corner[k] - apex, corner[(k + 1) % 3] - apex) / twice_area;
-    }
-  }
-  return {};
-}
 
 void project_on_mean_plane(const Halfedges& mesh, const ChartMetric& metric, Span<Vec2> uv) {
   Vec3 normal{0, 0, 0};
@@ -120,27 +102,6 @@ void round_map(const ChartMetric& metric, const Halfedges& mesh, Span<const Vec2
     const Vec2 p = scale * (x[i] - centre);
     uv[i] = {static_cast<float>(p.x), static_cast<float>(p.y)};
   }
-}
-
-/// Every triangle is positive and every inner vertex is turned about once, exactly.
-bool is_locally_injective(const Halfedges& mesh, Span<const Vec2f> uv) {
-  for (FaceId f : Ids<FaceId>(mesh.face_count())) {
-    const Vec2 a = widen(uv[mesh.origin[halfedge(f, 0)]]), b = widen(uv[mesh.origin[halfedge(f, 1)]]);
-    const Vec2 c = widen(uv[mesh.origin[halfedge(f, 2)]]);
-    if (!(orient2d(a, b, c) > 0)) return false;
-  }
-  for (VertexId v : Ids<VertexId>(mesh.vertex_count())) {
-    const HalfedgeId first = mesh.outgoing[v];
-    if (mesh.is_boundary(first)) continue;
-    std::uint32_t rises = 0;  // a positive triangle that crosses the ray to the right does so upwards
-    HalfedgeId h = first;
-    do {
-      rises += uv[mesh.target(h)].y < uv[v].y && !(uv[mesh.apex(h)].y < uv[v].y);
-      h = mesh.turn_left(h);
-    } while (h != first);
-    if (rises != 1) return false;
-  }
-  return true;
 }
 
 /// One try at a map: the start that is in `x`, iterations, looks.

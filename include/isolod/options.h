@@ -60,6 +60,7 @@ struct Options {
   bool smooth_undersampled = true;
 
   AtlasKind atlas = AtlasKind::charts;
+  bool fall_back_to_charts = true;  ///< where a single chart folds; false: the status is no_convergence
   Calibration calibration = Calibration::corrected;
   Fluency fluency = Fluency::automatic;
   LloydWeight weight = LloydWeight::equal;

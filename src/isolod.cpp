@@ -73,6 +73,7 @@
 #include "relax/relaxation.cpp"
 #include "relax/split_edges.cpp"
 
+#include "pipeline/charting.cpp"
 #include "pipeline/first_mesh.cpp"
 #include "pipeline/levels.cpp"
 #include "pipeline/make_atlas.cpp"

@@ -34,7 +34,7 @@ struct Hand {
     set(s.surface.line, line);
     set(s.surface.wedge_density, density);
     set(s.atlas.chart_of_face, charts);
-    set(s.uv, uv);
+    set(s.maps.rounded, uv);
     set(s.lines.place, line_places);
     set(s.places, places);
     set(s.samples.place, sample_places);
@@ -129,7 +129,7 @@ const std::vector<Change> changes = {
     {"atlas", [](Hand& h) { h.uv[0].x = 0.375F; }},
     {"atlas", [](Hand& h) { h.uv[0].y = 0.375F; }},
     {"atlas", [](Hand& h) { h.uv[1].y = -2; }},
-    {"atlas", [](Hand& h) { --h.s.uv.count; }},
+    {"atlas", [](Hand& h) { --h.s.maps.rounded.count; }},
     {"line_samples", [](Hand& h) { h.line_places[0].edge = 5; }},
     {"line_samples", [](Hand& h) { h.line_places[1].along = 0.75 + 0x1p-53; }},
     {"line_samples", [](Hand& h) { --h.s.lines.place.count; }},

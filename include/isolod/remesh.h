@@ -34,6 +34,14 @@ struct StageReport {
   std::size_t arena_bytes = 0;  ///< the most that was in use while it ran
 };
 
+/// How the error diffusion over triangles went.
+struct DiffusionReport {
+  Fluency fluency = Fluency::automatic;  ///< what was used
+  double largest_error = 0;              ///< in samples: the greatest that any triangle was handed by its neighbours
+  std::uint32_t teleports = 0;           ///< errors that went to a triangle that is no neighbour
+  std::uint32_t split_triangles = 0;     ///< that a single strip passes in two halves
+};
+
 /// What a run did. Filled also when it fails, as far as it came.
 struct Report {
   static constexpr std::size_t stage_capacity = 24;
@@ -49,9 +57,11 @@ struct Report {
   std::uint32_t corners = 0;
   std::uint32_t backbones = 0;
   std::uint32_t charts = 0;
+  std::uint32_t fallen_back = 0;      ///< components that were to be one chart and had to be several
   std::uint32_t feature_samples = 0;  ///< corners included
   std::uint32_t seam_samples = 0;
   std::uint32_t surface_samples = 0;
+  DiffusionReport diffusion;
   std::uint64_t result_hash = 0;  ///< of the raw bits of the output
 };
 

@@ -64,7 +64,12 @@ Status step_features(State& s, bool& done, std::uint64_t& units) {
 Status step_density(State& s, bool& done, std::uint64_t& units) {
   units = elements_a_piece;
   if (!s.stage_begun) {
-    ISOLOD_TRY(s.density.begin(s.surface, {s.options.density, s.options.gamma, s.options.smoothing_passes}, *s.arena));
+    DensityOptions options{s.options.density, s.options.gamma, s.options.smoothing_passes};
+    if (s.options.smooth_undersampled) {
+      const std::uint32_t least = undersampling_passes(s.surface.mesh.vertex_count(), s.options.vertex_count);
+      if (options.smoothing_passes < least) options.smoothing_passes = least;
+    }
+    ISOLOD_TRY(s.density.begin(s.surface, options, *s.arena));
   } else {
     s.density.step(s.surface, *s.arena);
   }
@@ -109,23 +114,25 @@ Status step_refine(State& s, bool& done, std::uint64_t& units) {
 }
 
 Status step_atlas(State& s, bool& done, std::uint64_t& units) {
+  units = elements_a_piece;
   if (!s.stage_begun) {
     s.before_atlas = s.arena->mark();
-    AtlasOptions options;
-    options.line_rate = s.first_rates.line;
-    options.surface_rate = s.first_rates.surface;
-    units = face_units(s);
-    return s.make_atlas.begin(s.surface, options, *s.arena);
+    ChartingOptions options;
+    options.kind = s.options.atlas;
+    options.fall_back_to_charts = s.options.fall_back_to_charts;
+    options.atlas.line_rate = s.first_rates.line;
+    options.atlas.surface_rate = s.first_rates.surface;
+    return s.charting.begin(s.surface, options, *s.arena);
   }
-  if (!s.make_atlas.done()) {
-    units = elements_a_piece;
-    s.stage_share = s.make_atlas.share_done();
-    return s.make_atlas.step(*s.arena);
+  if (!s.charting.done()) {
+    s.stage_share = s.charting.share_done();
+    return s.charting.step(s.surface, *s.arena);
   }
   done = true;
   units = face_units(s);
-  ISOLOD_TRY(s.make_atlas.finish(s.surface, s.atlas, s.uv, *s.arena));
+  ISOLOD_TRY(s.charting.finish(s.surface, s.atlas, s.maps, *s.arena));
   s.report.charts = static_cast<std::uint32_t>(s.atlas.chart_count());
+  s.report.fallen_back = s.charting.fallen_back();
   return {};
 }
 
@@ -179,17 +186,30 @@ void count_samples(State& s) {
   report.seam_samples = s.plan.first_count - report.feature_samples - report.surface_samples;
 }
 
-Status step_diffuse(State& s, bool& done, std::uint64_t& units) {
+Status begin_diffusion(State& s) {
   const std::uint32_t surface_samples = s.plan.first_count - s.numbers.node_count - s.numbers.line_count;
   ISOLOD_TRY(s.arena->result(surface_samples, s.places));
   ISOLOD_TRY(s.arena->result(s.atlas.chart_count() + 1, s.chart_start));
-  const ScratchScope scope(*s.arena);
-  Span<std::uint32_t> face_count;
-  ISOLOD_TRY(s.arena->scratch(s.surface.mesh.face_count(), face_count));
-  ISOLOD_TRY(diffuse(s.surface, s.backbones, s.lines, s.first_rates.surface, surface_samples, face_count, *s.arena));
-  place_samples(s.surface, {s.atlas.faces, s.atlas.start}, face_count, s.chart_start, s.places);
-  units = face_units(s) + surface_samples;
+  s.before_diffuse = s.arena->mark();
+  ISOLOD_TRY(s.arena->scratch(s.surface.mesh.face_count(), s.face_count));
+  return s.diffuse.begin(
+      {&s.surface, &s.backbones, &s.lines, s.first_rates.surface, surface_samples, s.options.fluency}, s.face_count,
+      *s.arena);
+}
+
+Status step_diffuse(State& s, bool& done, std::uint64_t& units) {
+  units = elements_a_piece;
+  if (!s.stage_begun) return begin_diffusion(s);
+  if (!s.diffuse.done()) {
+    s.stage_share = s.diffuse.share_done();
+    return s.diffuse.step(*s.arena);
+  }
   done = true;
+  units = face_units(s);
+  const FluencyReport flow = s.diffuse.finish(*s.arena);
+  s.report.diffusion = {flow.fluency, flow.largest_received, flow.teleports, flow.split_faces};
+  place_samples(s.surface, {s.atlas.faces, s.atlas.start}, s.face_count, s.chart_start, s.places);
+  s.arena->rewind_scratch(s.before_diffuse);
   return {};
 }
 
@@ -211,7 +231,7 @@ Status step_charts(State& s, bool& done, std::uint64_t& units) {
   FlatChart flat;
   ChartSites sites;
   Lloyd lloyd;
-  ISOLOD_TRY(build_flat_chart(s.surface, s.atlas, s.uv, chart, flat, *s.arena));
+  ISOLOD_TRY(build_flat_chart(s.surface, s.atlas, s.maps, chart, flat, *s.arena));
   ISOLOD_TRY(triangulate_sites(s.sampled(), flat, chart, sites, *s.arena));
   const std::uint32_t first_movable = s.numbers.node_count + s.numbers.line_count;
   ISOLOD_TRY(lloyd.begin(s.surface, flat, sites, first_movable, {s.options.weight, s.options.centroids, 1}, *s.arena));

@@ -197,7 +197,10 @@ std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count
   const std::size_t long_ones = triangle_count < samples ? triangle_count : samples;
   const std::size_t refined = triangle_count + 6 * samples +
                               static_cast<std::size_t>(0.25 * square_root(static_cast<double>(samples))) * long_ones;
-  return (std::size_t{1} << 20) + 120 * vertex_count + 600 * refined + 2000 * samples;
+  // One chart needs a sparse factor of its whole map; the strip its matching.
+  const std::size_t single = options.atlas == AtlasKind::single ? 1400 * refined : 0;
+  const std::size_t strip = options.fluency == Fluency::strip ? 100 * refined : 0;
+  return (std::size_t{1} << 20) + 120 * vertex_count + 600 * refined + 2000 * samples + single + strip;
 }
 
 }  // namespace v1

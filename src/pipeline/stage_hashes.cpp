@@ -19,6 +19,7 @@ void add(ContentHash& hash, Index<Kind> id) {
   hash.add(id.value);
 }
 void add(ContentHash& hash, const Vec3& p) { hash.add(p.x), hash.add(p.y), hash.add(p.z); }
+void add(ContentHash& hash, const Vec2& p) { hash.add(p.x), hash.add(p.y); }
 void add(ContentHash& hash, const Vec2f& p) { hash.add(p.x), hash.add(p.y); }
 void add(ContentHash& hash, const Rates& r) { hash.add(r.line), hash.add(r.surface); }
 void add(ContentHash& hash, const LinePlace& p) { hash.add(p.edge), hash.add(p.along); }
@@ -47,7 +48,7 @@ std::uint64_t hash_surface(const State& s) {
 std::uint64_t hash_lines(const State& s) { return hash_of(s.surface.line, s.surface.corner); }
 std::uint64_t hash_density(const State& s) { return hash_of(s.surface.wedge_density); }
 std::uint64_t hash_rates(const State& s) { return hash_of(s.rates, s.first_rates, s.plan.splits, s.plan.first_count); }
-std::uint64_t hash_atlas(const State& s) { return hash_of(s.atlas.chart_of_face, s.uv); }
+std::uint64_t hash_atlas(const State& s) { return hash_of(s.atlas.chart_of_face, s.maps.rounded, s.maps.exact); }
 std::uint64_t hash_line_samples(const State& s) { return hash_of(s.lines.start, s.lines.place); }
 std::uint64_t hash_places(const State& s) { return hash_of(s.chart_start, s.places); }
 std::uint64_t hash_samples(const State& s) {

@@ -3,8 +3,8 @@
 
 #include "isolod/remesh.h"
 #include "mesh/repair.h"
+#include "pipeline/charting.h"
 #include "pipeline/levels.h"
-#include "pipeline/make_atlas.h"
 #include "plane/lloyd.h"
 #include "result/stitch.h"
 #include "sample/calibrate.h"
@@ -41,13 +41,16 @@ struct Remesher::State {
   IntegrateDensity integrate;
   Rates rates;
   Refine refine;
-  MakeAtlas make_atlas;
+  Charting charting;
   Atlas atlas;
-  Span<Vec2f> uv;
+  ChartMaps maps;
   Backbones backbones;
   LineSamples lines;
   Span<SurfacePlace> places;
   Span<std::uint32_t> chart_start;
+  Diffuse diffuse;
+  Span<std::uint32_t> face_count;
+  ArenaMark before_diffuse;
   SampleNumbers numbers;
   Stitch stitch;
   Samples samples;

@@ -6,15 +6,15 @@
 namespace isolod {
 inline namespace v1 {
 
-Status build_flat_chart(const Surface& surface, const Atlas& atlas, Span<const Vec2f> uv, std::size_t chart,
+Status build_flat_chart(const Surface& surface, const Atlas& atlas, const ChartMaps& maps, std::size_t chart,
                         FlatChart& flat, Arena& arena) {
-  ISOLOD_TRY(build_chart(surface, atlas.chart_faces(chart), atlas.chart_of_face, atlas.place, flat.chart, arena));
+  ISOLOD_TRY(build_cut_chart(surface, atlas.chart_faces(chart), atlas.chart_of_face, atlas.place, flat.chart, arena));
   const Halfedges& mesh = flat.chart.mesh;
   ISOLOD_TRY(arena.scratch(mesh.vertex_count(), flat.uv));
   ISOLOD_TRY(arena.scratch(mesh.halfedge_count(), flat.barrier));
   for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
     const HalfedgeId global = flat.chart.on_surface(h);
-    flat.uv[mesh.origin[h]] = widen(uv[global]);
+    flat.uv[mesh.origin[h]] = maps.at(global);
     flat.barrier[h] = surface.line[global];
   }
   return {};

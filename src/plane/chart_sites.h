@@ -36,6 +36,17 @@ struct SampledSurface {
   SampleNumbers numbers;
 };
 
+/// The maps of an atlas, a place per halfedge: that of its origin in the chart of its face. Rounded to 32 bits for
+/// charts of little stretch, exact for a whole component.
+struct ChartMaps {
+  Span<Vec2f> rounded;
+  Span<Vec2> exact;
+
+  ChartMaps() = default;
+  ChartMaps(Span<Vec2f> uv) : rounded(uv) {}  // NOLINT: a map is a map
+  Vec2 at(HalfedgeId h) const { return exact.empty() ? widen(rounded[h]) : exact[h]; }
+};
+
 /// The flattened chart: what samples are located in.
 struct FlatChart {
   Chart chart;
@@ -51,7 +62,7 @@ struct ChartSites {
 };
 
 /// Builds the local chart and its map. Scratch stays with the caller's scope.
-Status build_flat_chart(const Surface& surface, const Atlas& atlas, Span<const Vec2f> uv, std::size_t chart,
+Status build_flat_chart(const Surface& surface, const Atlas& atlas, const ChartMaps& maps, std::size_t chart,
                         FlatChart& flat, Arena& arena);
 
 /// Fills `sites`. Scratch of about 150 bytes a local face and 100 a sample stays with the caller's scope. O(n) time in

@@ -12,6 +12,8 @@ using isolod::Report;
 
 std::uint64_t wide(std::size_t value) { return static_cast<std::uint64_t>(value); }
 
+const char* const fluencies[] = {"auto", "tree", "region", "strip"};
+
 void add_options(JsonWriter& json, const Options& options) {
   const char* const densities[] = {"uniform", "given", "curvature"};
   json.open_object("options");
@@ -22,6 +24,11 @@ void add_options(JsonWriter& json, const Options& options) {
   json.add("gamma", options.gamma);
   json.add("smooth", std::uint64_t{options.smoothing_passes});
   json.add("lloyd", std::uint64_t{options.lloyd_iterations});
+  json.add("smooth_undersampled", options.smooth_undersampled);
+  json.add("atlas", options.atlas == isolod::AtlasKind::single ? "single" : "charts");
+  json.add("fluency", fluencies[static_cast<std::size_t>(options.fluency)]);
+  json.add("fall_back_to_charts", options.fall_back_to_charts);
+  json.add("remove_seams", options.remove_seams);
   json.add("calibration", options.calibration == isolod::Calibration::paper ? "paper" : "corrected");
   json.add("weight", options.weight == isolod::LloydWeight::paper ? "paper" : "equal");
   json.add("centroids", options.centroids == isolod::Centroids::exact ? "exact" : "fast");
@@ -62,9 +69,14 @@ void add_counts(JsonWriter& json, const Report& report) {
   json.add("corners", std::uint64_t{report.corners});
   json.add("backbones", std::uint64_t{report.backbones});
   json.add("charts", std::uint64_t{report.charts});
+  json.add("fallen_back", std::uint64_t{report.fallen_back});
   json.add("feature_samples", std::uint64_t{report.feature_samples});
   json.add("seam_samples", std::uint64_t{report.seam_samples});
   json.add("surface_samples", std::uint64_t{report.surface_samples});
+  json.add("fluency", fluencies[static_cast<std::size_t>(report.diffusion.fluency)]);
+  json.add("largest_error", report.diffusion.largest_error);
+  json.add("teleports", std::uint64_t{report.diffusion.teleports});
+  json.add("split_triangles", std::uint64_t{report.diffusion.split_triangles});
 }
 
 }  // namespace

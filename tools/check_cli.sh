@@ -59,7 +59,7 @@ no_leftovers() {
 runs "help" 0 "$isolod" --help
 holds "help lists exit codes" grep -q budget_too_small output.txt
 runs "version" 0 "$isolod" --version
-for command in remesh info compare make validate; do
+for command in remesh info compare make cut validate; do
   runs "help of $command" 0 "$isolod" $command --help
   refuses "$command refuses an unknown option" 2 "--nonsense" "$isolod" $command --nonsense
   refuses "$command wants its file" 2 "$command" "$isolod" $command
@@ -85,6 +85,20 @@ for shape in sphere torus knot bracket head plate lattice; do
 done
 refuses "unknown shape" 2 "sphere" "$isolod" make shpere -o s.obj
 runs "make list" 0 "$isolod" make list
+
+# --- cutting: a torus without its upper half has two borders, and every vertex that is left is used
+runs "cut" 0 "$isolod" cut torus.off --plane 0,0,1,0 -o half.obj
+runs "info on what was cut" 0 "$isolod" info half.obj
+holds "two borders" grep -Eq '^boundary loops +2$' output.txt
+whole="$(sed -n '2s/^[0-9]* \([0-9]*\).*/\1/p' torus.off)"
+holds "half of the triangles" test "$(grep -c '^f ' half.obj)" -eq $((${whole:-0} / 2))
+holds "no vertex without a triangle" test "$(sed -n 's/^f //p' half.obj | tr ' ' '\n' | sort -u | wc -l)" -eq "$(grep -c '^v ' half.obj)"
+runs "a plane beside the shape" 0 "$isolod" cut torus.off --plane 0,0,1,100 -o all.off
+holds "takes nothing away" cmp torus.off all.off
+refuses "a plane with three numbers" 2 "A,B,C,D" "$isolod" cut torus.off --plane 0,0,1 -o x.obj
+refuses "a plane without direction" 2 "--plane" "$isolod" cut torus.off --plane 0,0,0,1 -o x.obj
+refuses "a cut that leaves nothing" 12 "torus.off: " "$isolod" cut torus.off --plane 0,0,1,-100 -o x.obj
+holds "writes nothing" test ! -e x.obj
 
 # --- formats: every one gives the same mesh back
 for ending in obj off ply stl; do

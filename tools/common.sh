@@ -67,12 +67,13 @@ build_preset() {
   fi
 }
 
-# build_program: the optimised program alone, without tests, as $isolod.
+# build_program [TARGET...]: the optimised program alone, without tests, as $isolod; or these targets.
 build_program() {
+  [ $# -gt 0 ] || set -- isolod_cli
   mkdir -p build
   echo "building: the program"
   if ! cmake -S . -B build/program -G Ninja -DISOLOD_TESTS=OFF >build/program.log 2>&1 ||
-    ! cmake --build build/program -j "$(jobs_here)" --target isolod_cli >>build/program.log 2>&1; then
+    ! cmake --build build/program -j "$(jobs_here)" --target "$@" >>build/program.log 2>&1; then
     tail -n 60 build/program.log >&2
     echo "the build failed; all of it is in build/program.log" >&2
     return 1

@@ -3,7 +3,8 @@
 // Prints CSV. Without --against, a row for each stage and one for the whole: the median over the repeats of the
 // seconds, the arena's peak, and for the whole how many samples times iterations a second were relaxed. With --against,
 // `isolod` and the other command run in turn (A B A B ...) as processes of their own on the same file, file reading and
-// writing included, and the rows hold the medians of both and the ratio of their times.
+// writing included, and the rows hold the medians of both, the ratio of their times, and how
+// many vertices the other program gave.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -94,6 +95,7 @@ void print_stages(const Job& job, const std::vector<RunOutcome>& runs, std::size
   if (header) std::puts("model,input_triangles,vertices,stage,seconds,arena_bytes,sample_iterations_per_second,hash");
   for (std::size_t i = 0; i < report.stage_count; ++i) {
     std::vector<double> seconds;
+    seconds.reserve(runs.size());
     for (const RunOutcome& run : runs) seconds.push_back(run.report.stages[i].seconds);
     std::printf("%s,%zu,%.0f,%s,%.6f,%zu,,%016llx\n", job.name.c_str(), input_triangles, samples, report.stages[i].name,
                 median(seconds), report.stages[i].arena_bytes, static_cast<unsigned long long>(report.stages[i].hash));
@@ -142,24 +144,36 @@ std::string own_command(const Arguments& arguments, const char* self) {
   return command;
 }
 
+/// How many vertices the other program's result has, which may not hit the wish; 0 where it wrote no mesh.
+std::size_t vertices_written(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return 0;
+  const std::size_t count = tool::read_mesh_file(path).loaded.vertex_count();
+  std::filesystem::remove(path, error);
+  return count;
+}
+
 int bench_against(const Job& job, const Arguments& arguments, const char* self, bool header) {
   const TemporaryFile out("-out.obj");
   const std::string n = std::to_string(job.settings.options.vertex_count);
   const std::string ours = bench::filled(own_command(arguments, self), job.path, out.path, n);
   const std::string theirs = bench::filled(arguments.required_text("--against"), job.path, out.path, n);
   Series a, b;
+  std::size_t other_vertices = 0;
   for (std::uint64_t i = 0; i < job.repeats; ++i) {
     a.add(bench::run_process(ours), ours);
     b.add(bench::run_process(theirs), theirs);
+    other_vertices = vertices_written(out.path);
   }
   if (header) {
     std::puts(
         "model,vertices,repeats,isolod_seconds,isolod_cpu_seconds,isolod_peak_mb,other_seconds,other_cpu_seconds,"
-        "other_peak_mb,other_over_isolod_seconds,other_over_isolod_cpu");
+        "other_peak_mb,other_over_isolod_seconds,other_over_isolod_cpu,other_vertices");
   }
-  std::printf("%s,%s,%zu,%.4f,%.4f,%.1f,%.4f,%.4f,%.1f,%.3f,%.3f\n", job.name.c_str(), n.c_str(), a.wall.size(),
+  std::printf("%s,%s,%zu,%.4f,%.4f,%.1f,%.4f,%.4f,%.1f,%.3f,%.3f,%zu\n", job.name.c_str(), n.c_str(), a.wall.size(),
               median(a.wall), median(a.cpu), median(a.peak), median(b.wall), median(b.cpu), median(b.peak),
-              median(b.wall) / std::max(1e-9, median(a.wall)), median(b.cpu) / std::max(1e-9, median(a.cpu)));
+              median(b.wall) / std::max(1e-9, median(a.wall)), median(b.cpu) / std::max(1e-9, median(a.cpu)),
+              other_vertices);
   return tool::exit_ok;
 }
 

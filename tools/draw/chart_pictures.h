@@ -7,7 +7,8 @@
 
 namespace draw {
 
-/// Writes the file; false where that fails. A story that broke off (no triangulation) is drawn as far as it goes.
-bool draw_chart(const std::string& file, std::size_t chart, const ChartStory& story, std::uint32_t iterations);
+/// Writes the file; false where that fails. The story holds the start and the end; one that broke off (no
+/// triangulation) is drawn as far as it goes.
+bool draw_chart(const std::string& file, std::size_t chart, const ChartStory& story);
 
 }  // namespace draw

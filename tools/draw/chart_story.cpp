@@ -16,6 +16,27 @@ bool PlaneDrawing::is_inverted(std::size_t f) const {
 
 namespace {
 
+double area_of(const std::vector<Vec2>& polygon) {
+  double twice = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    twice += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  }
+  return 0.5 * twice;
+}
+
+}  // namespace
+
+double CellDrawing::lost_area() const { return area_of(unbounded) - area_of(bounded); }
+
+bool CellDrawing::is_cut() const { return lost_area() > 1e-6 * area_of(bounded); }
+
+std::size_t ChartMoment::gabriel_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(cell.begin(), cell.end(), [](const CellDrawing& c) { return c.is_gabriel; }));
+}
+
+namespace {
+
 class Storyteller {
  public:
   Storyteller(const SampledSurface& samples, ChartStory& story) : samples_(samples), story_(story) {}
@@ -23,36 +44,56 @@ class Storyteller {
   void draw_map(const FlatChart& flat) {
     const auto kind = [&](HalfedgeId h) { return kind_of_line(samples_.surface->line[flat.chart.on_surface(h)]); };
     copy(flat.chart.mesh, flat.uv, kind, story_.map);
-  }
-
-  void draw_sites(const ChartSites& sites, PlaneDrawing& drawing) {
-    const Halfedges& mesh = sites.plane.t.mesh;
-    const auto kind = [&](HalfedgeId h) { return kind_of_line(sites.plane.t.fixed[h]); };
-    copy(mesh, sites.plane.point, kind, drawing);
+    story_.map_vertex.assign(flat.chart.vertex.begin(), flat.chart.vertex.end());
+    story_.map_face.assign(flat.chart.faces.begin(), flat.chart.faces.end());
+    const Backbones& backbones = *samples_.backbones;
+    for (HalfedgeId h : Ids<HalfedgeId>(flat.chart.mesh.halfedge_count())) {
+      const std::uint32_t place = backbones.place[flat.chart.on_surface(h)];
+      story_.map_backbone.push_back(place == UINT32_MAX ? place : part_of(backbones.start, place));
+    }
   }
 
   void name_sites(const ChartSites& sites) {
     for (SampleId s : sites.sample) story_.site.push_back(kind_of(s));
   }
 
-  Status draw_cells(const ChartSites& sites, Arena& arena) {
+  Status draw_moment(const ChartSites& sites, const Lloyd& lloyd, std::uint32_t iterations, Arena& arena) {
+    const Halfedges& mesh = sites.plane.t.mesh;
+    const auto kind = [&](HalfedgeId h) { return kind_of_line(sites.plane.t.fixed[h]); };
+    ChartMoment& moment = story_.moment.emplace_back();
+    moment.iterations = iterations;
+    copy(mesh, sites.plane.point, kind, moment.drawing);
+    const std::uint32_t first = samples_.numbers.node_count + samples_.numbers.line_count;
+    for (VertexId v : Ids<VertexId>(sites.sample.count)) {
+      if (sites.sample[v].value < first) continue;
+      moment.lifted.push_back(sites.sample[v].value - first);
+      moment.place.push_back(lloyd.lift(v));
+    }
+    return draw_cells(sites, moment, arena);
+  }
+
+ private:
+  Status draw_cells(const ChartSites& sites, ChartMoment& moment, Arena& arena) {
+    const ScratchScope scope(arena);
     CellCorners corners;
     ISOLOD_TRY(corners.begin(sites.plane.t.mesh.face_count(), arena));
     corners.update(sites.plane);
-    draw_voronoi(sites, corners);
+    draw_voronoi(sites, corners, moment);
     const std::vector<double> ones(sites.sample.count, 1.0);
     WeightedPolygon cell;
     for (VertexId v : Ids<VertexId>(sites.sample.count)) {
       if (kind_of(sites.sample[v]) != SiteKind::surface) continue;
       make_cell(sites.plane, corners, {ones.data(), ones.size()}, v, cell);
-      std::vector<Vec2> polygon;
-      for (std::uint32_t i = 0; i < cell.count; ++i) polygon.push_back(cell.corner[i].point);
-      (is_gabriel(sites.plane, v) ? story_.gabriel : story_.ordinary).push_back(polygon);
+      CellDrawing& drawing = moment.cell.emplace_back();
+      drawing.site = v.value;
+      drawing.is_gabriel = is_gabriel(sites.plane, v);
+      for (std::uint32_t i = 0; i < cell.count; ++i) drawing.bounded.push_back(cell.corner[i].point);
+      visit_outgoing(sites.plane.t.mesh, v,
+                     [&](HalfedgeId h) { drawing.unbounded.push_back(corners.centre[face(h)]); });
     }
     return {};
   }
 
- private:
   static EdgeKind kind_of_line(std::uint8_t line) {
     return line == line_none ? EdgeKind::inner : (line & line_feature) != 0 ? EdgeKind::feature : EdgeKind::seam;
   }
@@ -75,16 +116,18 @@ class Storyteller {
       return samples_.surface->corner[backbones.node[s.value]] ? SiteKind::corner : SiteKind::seam;
     }
     if (s.value >= numbers.node_count + numbers.line_count) return SiteKind::surface;
-    const Span<std::uint32_t> start = samples_.lines->start;
-    const std::uint32_t place = s.value - numbers.node_count;
-    const std::size_t backbone =
-        static_cast<std::size_t>(std::upper_bound(start.begin(), start.end(), place) - start.begin()) - 1;
+    const std::uint32_t backbone = part_of(samples_.lines->start, s.value - numbers.node_count);
     return is_feature(*samples_.surface, backbones, backbone) ? SiteKind::feature : SiteKind::seam;
+  }
+
+  /// The last part that starts at or before `place`.
+  static std::uint32_t part_of(Span<const std::uint32_t> start, std::uint32_t place) {
+    return static_cast<std::uint32_t>(std::upper_bound(start.begin(), start.end(), place) - start.begin()) - 1;
   }
 
   /// The dual of every edge: between two circumcentres, or from one to the middle of a fixed edge; cut where a fixed
   /// edge hides a circumcentre.
-  void draw_voronoi(const ChartSites& sites, const CellCorners& corners) {
+  static void draw_voronoi(const ChartSites& sites, const CellCorners& corners, ChartMoment& moment) {
     const PlaneTriangulation& plane = sites.plane;
     const Halfedges& mesh = plane.t.mesh;
     for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
@@ -95,7 +138,7 @@ class Storyteller {
       std::array<Vec2, 2> edge = {corners.centre[here], is_border ? middle : corners.centre[there]};
       if (is_border && corners.blind[here] == h) continue;
       if (cut(edge, plane, corners.blind[here]) && cut(edge, plane, corners.blind[there])) {
-        story_.voronoi.push_back(edge);
+        moment.voronoi.push_back(edge);
       }
     }
   }
@@ -134,24 +177,53 @@ class Storyteller {
 
 }  // namespace
 
-Status tell_story(const SampledSurface& samples, Span<const Vec2f> uv, std::size_t chart, const Options& options,
-                  Arena& arena, ChartStory& story) {
+Status tell_map(const SampledSurface& samples, const ChartMaps& maps, std::size_t chart, Arena& arena,
+                ChartStory& story) {
+  const ScratchScope scope(arena);
+  FlatChart flat;
+  ISOLOD_TRY(build_flat_chart(*samples.surface, *samples.atlas, maps, chart, flat, arena));
+  Storyteller(samples, story).draw_map(flat);
+  return {};
+}
+
+Status tell_story(const SampledSurface& samples, const ChartMaps& maps, std::size_t chart, const Options& options,
+                  const std::vector<std::uint32_t>& iterations, Arena& arena, ChartStory& story) {
   const ScratchScope scope(arena);
   Storyteller teller(samples, story);
   FlatChart flat;
   ChartSites sites;
   Lloyd lloyd;
-  ISOLOD_TRY(build_flat_chart(*samples.surface, *samples.atlas, uv, chart, flat, arena));
+  ISOLOD_TRY(build_flat_chart(*samples.surface, *samples.atlas, maps, chart, flat, arena));
   teller.draw_map(flat);
   ISOLOD_TRY(triangulate_sites(samples, flat, chart, sites, arena));
   teller.name_sites(sites);
-  teller.draw_sites(sites, story.before);
   const std::uint32_t first_movable = samples.numbers.node_count + samples.numbers.line_count;
   ISOLOD_TRY(lloyd.begin(*samples.surface, flat, sites, first_movable, {options.weight, options.centroids, 1}, arena));
-  lloyd.untangle();
-  for (std::uint32_t i = 0; i < options.lloyd_iterations; ++i) lloyd.iterate();
-  teller.draw_sites(sites, story.after);
-  return teller.draw_cells(sites, arena);
+  std::uint32_t done = 0;
+  for (const std::uint32_t wished : iterations) {
+    if (done == 0 && wished > 0) lloyd.untangle();
+    for (; done < wished; ++done) lloyd.iterate();
+    ISOLOD_TRY(teller.draw_moment(sites, lloyd, wished, arena));
+  }
+  return {};
+}
+
+std::size_t greatest_chart(const Surface& surface, const Atlas& atlas, bool by_features) {
+  constexpr double border_worth = 0.01;  // of features that the chart has on one side only
+  std::vector<double> size(atlas.chart_count(), 0.0);
+  for (HalfedgeId h : Ids<HalfedgeId>(surface.mesh.halfedge_count())) {
+    const std::uint32_t chart = atlas.chart_of_face[face(h)];
+    const HalfedgeId twin = surface.mesh.twin[h];
+    const bool is_inner = !twin.is_none() && atlas.chart_of_face[face(twin)] == chart;
+    const bool is_feature = (surface.line[h] & line_feature) != 0;
+    if (by_features)
+      size[chart] += is_feature ? edge_length(surface, h) * (is_inner ? 1 : border_worth) : 0;
+    else if (h.value % 3 == 0)
+      size[chart] += face_area(surface, face(h));
+  }
+  std::size_t greatest = 0;
+  for (std::size_t c = 0; c < size.size(); ++c) greatest = size[c] > size[greatest] ? c : greatest;
+  return by_features && !(size[greatest] > 0) ? greatest_chart(surface, atlas, false) : greatest;
 }
 
 }  // namespace draw

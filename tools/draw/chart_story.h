@@ -25,18 +25,52 @@ struct PlaneDrawing {
 
 enum class SiteKind : std::uint8_t { corner, feature, seam, surface };
 
-struct ChartStory {
-  PlaneDrawing map;                          ///< of the original mesh
-  PlaneDrawing before, after;                ///< triangulations of the samples; the same numbers
-  std::vector<SiteKind> site;                ///< per sample
-  std::vector<std::array<Vec2, 2>> voronoi;  ///< edges of the bounded diagram, after
-  std::vector<std::vector<Vec2>> gabriel;    ///< cells after, all of whose edges are Gabriel
-  std::vector<std::vector<Vec2>> ordinary;   ///< the other cells of samples inside
+/// The cell of a sample inside.
+struct CellDrawing {
+  std::uint32_t site = 0;
+  bool is_gabriel = false;      ///< none of the edges at the sample has an apex within the circle over it
+  std::vector<Vec2> bounded;    ///< corners, as the relaxation integrates it
+  std::vector<Vec2> unbounded;  ///< corners by circumcentres alone, as if there were no lines
+
+  /// What lines take away.
+  double lost_area() const;
+  bool is_cut() const;
 };
 
-/// Fills the story of one chart. What it needs is taken from `arena` and given back. The samples must be where the
-/// diffusion put them.
-isolod::Status tell_story(const isolod::SampledSurface& samples, isolod::Span<const isolod::Vec2f> uv,
-                          std::size_t chart, const isolod::Options& options, isolod::Arena& arena, ChartStory& story);
+/// The chart after some iterations.
+struct ChartMoment {
+  std::uint32_t iterations = 0;
+  PlaneDrawing drawing;                      ///< triangulation of the samples; vertices are `ChartStory::site`
+  std::vector<std::array<Vec2, 2>> voronoi;  ///< edges of the bounded diagram
+  std::vector<CellDrawing> cell;
+  std::vector<std::uint32_t> lifted;  ///< numbers among the surface samples, and where those lie then
+  std::vector<isolod::SurfacePlace> place;
+
+  std::size_t gabriel_count() const;
+};
+
+struct ChartStory {
+  PlaneDrawing map;                          ///< of the original mesh
+  std::vector<isolod::VertexId> map_vertex;  ///< per point of the map: the surface's
+  std::vector<isolod::FaceId> map_face;      ///< per face of the map: the surface's
+  std::vector<std::uint32_t> map_backbone;   ///< per halfedge of the map, 3 a face: its backbone, or UINT32_MAX
+  std::vector<SiteKind> site;                ///< per sample
+  std::vector<ChartMoment> moment;           ///< those that were asked for, as far as it came
+};
+
+/// The first part of a story: the map alone.
+isolod::Status tell_map(const isolod::SampledSurface& samples, const isolod::ChartMaps& maps, std::size_t chart,
+                        isolod::Arena& arena, ChartStory& story);
+
+/// Tells the story of one flat chart of any atlas, be it the only one, at those numbers of iterations, which must
+/// rise. What is needed is taken from `arena` and given back. The samples must be where the diffusion put them. Where
+/// the status is not ok, the story is told up to there.
+isolod::Status tell_story(const isolod::SampledSurface& samples, const isolod::ChartMaps& maps, std::size_t chart,
+                          const isolod::Options& options, const std::vector<std::uint32_t>& iterations,
+                          isolod::Arena& arena, ChartStory& story);
+
+/// The chart of the most area, or of the longest feature lines, inner ones before those on its border; the only one
+/// where there is one.
+std::size_t greatest_chart(const isolod::Surface& surface, const isolod::Atlas& atlas, bool by_features);
 
 }  // namespace draw

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
-#include <memory>
-#include <new>
 
 #include "draw/chart_pictures.h"
+#include "draw/staged_run.h"
 #include "draw/surface_pictures.h"
-#include "pipeline/state.h"
 
 namespace draw {
 
@@ -17,20 +15,7 @@ namespace {
 using isolod::Remesher;
 using isolod::Status;
 
-constexpr std::size_t most_bytes = std::size_t{1} << 32, most_chart_bytes = std::size_t{1} << 29;
-
-/// A block for an arena. Memory that is not written costs nothing, so it may be large; where it cannot be had, half of
-/// it may do.
-struct Block {
-  explicit Block(std::size_t wished) : count(wished) {
-    bytes.reset(new (std::nothrow) unsigned char[count]);
-    while (bytes == nullptr && count > 0) bytes.reset(new (std::nothrow) unsigned char[count /= 2]);
-  }
-  isolod::Arena arena() const { return isolod::Arena(bytes.get(), count); }
-
-  std::unique_ptr<unsigned char[]> bytes;
-  std::size_t count;
-};
+constexpr std::size_t most_chart_bytes = std::size_t{1} << 29;
 
 /// Draws while a run goes on: `look` after every slice.
 class Artist {
@@ -93,7 +78,8 @@ class Artist {
     forget_charts();
     ISOLOD_TRY(keep("2_charts.svg", draw_charts(path("2_charts.svg"), frame_, state.surface, state.atlas)));
     ISOLOD_TRY(keep("3_samples.svg", draw_samples(path("3_samples.svg"), frame_, samples, state.options.vertex_count)));
-    const std::size_t largest = greatest_chart(state, false), featured = greatest_chart(state, true);
+    const std::size_t largest = greatest_chart(state.surface, state.atlas, false),
+                      featured = greatest_chart(state.surface, state.atlas, true);
     ISOLOD_TRY(draw_chart_of(state, largest));
     return featured == largest ? Status() : draw_chart_of(state, featured);
   }
@@ -103,26 +89,10 @@ class Artist {
     isolod::Arena arena = block.arena();
     ChartStory story;
     // A chart that cannot be triangulated is drawn as far as it goes; the run itself will report it.
-    (void)tell_story(state.sampled(), state.uv, chart, state.options, arena, story);
+    (void)tell_story(state.sampled(), state.maps, chart, state.options, {0, state.options.lloyd_iterations}, arena,
+                     story);
     const std::string name = "4_chart_" + std::to_string(chart) + ".svg";
-    return keep(name, draw_chart(path(name), chart, story, state.options.lloyd_iterations));
-  }
-
-  /// The chart of the most area, or of the longest feature lines.
-  static std::size_t greatest_chart(const Remesher::State& state, bool by_features) {
-    const isolod::Surface& surface = state.surface;
-    std::vector<double> size(state.atlas.chart_count(), 0.0);
-    for (isolod::HalfedgeId h : isolod::Ids<isolod::HalfedgeId>(surface.mesh.halfedge_count())) {
-      double& sum = size[state.atlas.chart_of_face[face(h)]];
-      const bool is_feature = (surface.line[h] & isolod::line_feature) != 0;
-      if (by_features)
-        sum += is_feature ? edge_length(surface, h) : 0;
-      else if (h.value % 3 == 0)
-        sum += face_area(surface, face(h));
-    }
-    std::size_t greatest = 0;
-    for (std::size_t c = 0; c < size.size(); ++c) greatest = size[c] > size[greatest] ? c : greatest;
-    return by_features && !(size[greatest] > 0) ? greatest_chart(state, false) : greatest;
+    return keep(name, draw_chart(path(name), chart, story));
   }
 
   std::string folder_;
@@ -138,19 +108,14 @@ class Artist {
 PictureOutcome draw_run(const std::string& folder, const isolod::MeshView& view, const isolod::Options& options,
                         const PictureSettings& settings) {
   PictureOutcome outcome;
-  const std::size_t required = isolod::required_memory(view.vertex_count, view.triangle_count, options);
-  const std::size_t plenty = std::min(4 * required, most_bytes);
-  const Block block(settings.block_bytes != 0 ? settings.block_bytes : plenty);
-  isolod::Arena arena = block.arena();
-  Artist artist(folder, settings, block.count, outcome);
-  Remesher remesher;
-  outcome.status = remesher.begin(view, options, {}, arena);
-  while (outcome.status.is_ok() && !remesher.done()) {
-    outcome.status = remesher.advance(0);  // one piece
-    if (outcome.status.is_ok()) outcome.status = artist.look(*remesher.state());
-  }
-  if (remesher.state() == nullptr || outcome.status == Status::cannot_open) return outcome;
-  const Status drawn = artist.draw_last(*remesher.state());
+  StagedRun run(view, options, settings.block_bytes);
+  Artist artist(folder, settings, run.block_bytes(), outcome);
+  do {
+    outcome.status = run.advance();
+    if (outcome.status.is_ok()) outcome.status = artist.look(*run.state());
+  } while (outcome.status.is_ok() && !run.done());
+  if (run.state() == nullptr || outcome.status == Status::cannot_open) return outcome;
+  const Status drawn = artist.draw_last(*run.state());
   if (outcome.status.is_ok()) outcome.status = drawn;
   return outcome;
 }

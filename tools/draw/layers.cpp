@@ -6,6 +6,15 @@
 
 namespace draw {
 
+FaceLook plain_look(const View& view, double paleness) {
+  FaceLook look;
+  look.colour = [&view, paleness](std::size_t f) {
+    const Colour base = view.is_back(f) ? palette::inside : palette::clay;
+    return mix(lit(base, view.light(f)), palette::paper, paleness);
+  };
+  return look;
+}
+
 void draw_faces(Svg& svg, const View& view, const FaceLook& look) {
   // By rank from the back, then by colour.
   std::map<std::pair<std::uint32_t, std::uint32_t>, PathData> paths;

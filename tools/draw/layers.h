@@ -14,6 +14,9 @@ struct FaceLook {
   Colour edge = palette::ink;
 };
 
+/// Light on clay, the back of an open surface in another colour; `paleness` 0 to 1 fades it into the paper.
+FaceLook plain_look(const View& view, double paleness);
+
 void draw_faces(Svg& svg, const View& view, const FaceLook& look);
 
 /// Where the surface turns away from the eye, and the borders of an open one.

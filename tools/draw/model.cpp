@@ -27,6 +27,17 @@ Model model_of(const isolod::Surface& surface) {
   return model;
 }
 
+Model model_of(const isolod::MeshView& view) {
+  Model model;
+  for (std::size_t v = 0; v < view.vertex_count; ++v) model.point.push_back(isolod::read_position(view, v));
+  for (std::size_t f = 0; f < view.triangle_count; ++f) {
+    model.face.push_back(
+        {isolod::read_index(view, 3 * f), isolod::read_index(view, 3 * f + 1), isolod::read_index(view, 3 * f + 2)});
+    model.source.push_back(static_cast<std::uint32_t>(f));
+  }
+  return model;
+}
+
 Model model_of(isolod::Span<const double> positions, isolod::Span<const std::uint32_t> triangles) {
   Model model;
   for (std::size_t i = 0; i + 2 < positions.count; i += 3) {
@@ -47,6 +58,12 @@ Bounds bounds_of(const Model& model) {
     bounds.high = {std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y), std::max(bounds.high.z, p.z)};
   }
   return bounds;
+}
+
+double spacing_of(const Model& model, std::size_t vertices) {
+  double area = 0;
+  for (std::size_t f = 0; f < model.face.size(); ++f) area += 0.5 * length(model.area_vector(f));
+  return std::sqrt(1.1547 * area / static_cast<double>(std::max<std::size_t>(vertices, 1)));
 }
 
 namespace {

@@ -30,12 +30,17 @@ struct Bounds {
 };
 
 Model model_of(const isolod::Surface& surface);
+Model model_of(const isolod::MeshView& view);
 Model model_of(isolod::Span<const double> positions, isolod::Span<const std::uint32_t> triangles);
 
 Bounds bounds_of(const Model& model);
 
+/// How far apart so many vertices are that lie evenly on the model: an edge of the triangular lattice.
+double spacing_of(const Model& model, std::size_t vertices);
+
 /// The same shape with fewer triangles, for looking only: vertices that share a cell of a grid become one, and the grid
 /// is coarsened until at most `most_faces` are left.
 Model lightened(const Model& model, std::size_t most_faces);
+constexpr std::size_t most_drawn_faces = 110000;  ///< more are thinned out, for the file's sake
 
 }  // namespace draw

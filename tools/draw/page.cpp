@@ -99,6 +99,26 @@ bool may_show_edge(const View& view, const Surface& surface, HalfedgeId h) {
   return view.may_show_face(face(h).value) || (!twin.is_none() && view.may_show_face(face(twin).value));
 }
 
+std::vector<std::uint32_t> colour_charts(const Surface& surface, const isolod::Atlas& atlas) {
+  std::vector<std::uint32_t> taken(atlas.chart_count(), 0), colour(atlas.chart_count(), 0);
+  std::vector<std::vector<std::uint32_t>> neighbours(atlas.chart_count());
+  for (isolod::HalfedgeId h : isolod::Ids<isolod::HalfedgeId>(surface.mesh.halfedge_count())) {
+    if (surface.mesh.is_boundary(h)) continue;
+    const std::uint32_t a = atlas.chart_of_face[face(h)], b = atlas.chart_of_face[face(surface.mesh.twin[h])];
+    if (a != b) neighbours[a].push_back(b);
+  }
+  for (std::uint32_t c = 0; c < atlas.chart_count(); ++c) {
+    std::uint32_t best = 0;
+    for (std::uint32_t i = 0; i < chart_colour_count; ++i) {
+      best = (c + i) % chart_colour_count;
+      if ((taken[c] >> best & 1u) == 0) break;
+    }
+    colour[c] = best;
+    for (std::uint32_t n : neighbours[c]) taken[n] |= 1u << best;
+  }
+  return colour;
+}
+
 SurfaceLines seam_lines(const View& view, const Surface& surface) {
   SurfaceLines lines(view);
   each_line(surface, [&](HalfedgeId h, std::uint8_t kind) {

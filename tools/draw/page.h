@@ -41,6 +41,9 @@ class FeatureLines {
 /// Whether a face beside the edge can be seen.
 bool may_show_edge(const View& view, const isolod::Surface& surface, isolod::HalfedgeId h);
 
+/// A colour's number for each chart, other than its neighbours' where that can be.
+std::vector<std::uint32_t> colour_charts(const isolod::Surface& surface, const isolod::Atlas& atlas);
+
 /// Edges between charts that are no features.
 SurfaceLines seam_lines(const View& view, const isolod::Surface& surface);
 

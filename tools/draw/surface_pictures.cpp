@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "draw/page.h"
+#include "draw/sample_spots.h"
 
 namespace draw {
 
@@ -11,78 +12,12 @@ namespace {
 
 using isolod::Surface;
 
-constexpr std::size_t most_faces = 110000;  // more are thinned out, for the file's sake
-
-FaceLook plain_look(const View& view, double brightness) {
-  FaceLook look;
-  look.colour = [&view, brightness](std::size_t f) {
-    const Colour base = view.is_back(f) ? palette::inside : palette::clay;
-    return mix(lit(base, view.light(f)), palette::paper, brightness);
-  };
-  return look;
-}
-
-/// A colour's number for each chart, other than its neighbours' where that can be.
-std::vector<std::uint32_t> colour_charts(const Surface& surface, const isolod::Atlas& atlas) {
-  std::vector<std::uint32_t> taken(atlas.chart_count(), 0), colour(atlas.chart_count(), 0);
-  std::vector<std::vector<std::uint32_t>> neighbours(atlas.chart_count());
-  for (isolod::HalfedgeId h : isolod::Ids<isolod::HalfedgeId>(surface.mesh.halfedge_count())) {
-    if (surface.mesh.is_boundary(h)) continue;
-    const std::uint32_t a = atlas.chart_of_face[face(h)], b = atlas.chart_of_face[face(surface.mesh.twin[h])];
-    if (a != b) neighbours[a].push_back(b);
-  }
-  for (std::uint32_t c = 0; c < atlas.chart_count(); ++c) {
-    std::uint32_t best = 0;
-    for (std::uint32_t i = 0; i < chart_colour_count; ++i) {
-      best = (c + i) % chart_colour_count;
-      if ((taken[c] >> best & 1u) == 0) break;
-    }
-    colour[c] = best;
-    for (std::uint32_t n : neighbours[c]) taken[n] |= 1u << best;
-  }
-  return colour;
-}
-
-double spacing_in_pixels(const Frame& frame, const Model& model, std::size_t vertices) {
-  double area = 0;
-  for (std::size_t f = 0; f < model.face.size(); ++f) area += 0.5 * length(model.area_vector(f));
-  return frame.camera.scale * std::sqrt(1.1547 * area / static_cast<double>(std::max<std::size_t>(vertices, 1)));
-}
-
-Vec3 line_place(const isolod::SampledSurface& samples, const isolod::LinePlace& place) {
-  const isolod::HalfedgeId h = samples.backbones->edge[place.edge];
-  const Vec3 a = samples.surface->position(samples.surface->mesh.origin[h]);
-  return a + place.along * (samples.surface->position(samples.surface->mesh.target(h)) - a);
-}
-
-Vec3 surface_place(const Surface& surface, const isolod::SurfacePlace& place) {
-  const auto corner = [&](std::uint32_t k) { return surface.position(surface.mesh.origin[halfedge(place.face, k)]); };
-  const Vec3 a = corner(0);
-  return a + place.weight1 * (corner(1) - a) + place.weight2 * (corner(2) - a);
-}
-
 std::string triangles_text(std::size_t count) { return grouped(count) + " triangles"; }
-
-std::vector<LegendItem> sample_legend(const isolod::SampledSurface& samples) {
-  const Surface& surface = *samples.surface;
-  std::size_t corners = 0, features = 0;
-  for (const isolod::VertexId v : samples.backbones->node) corners += surface.corner[v] != 0;
-  for (std::size_t b = 0; b < samples.backbones->count(); ++b) {
-    if (is_feature(surface, *samples.backbones, b)) features += samples.lines->inner_count(b);
-  }
-  const std::size_t seams = samples.numbers.node_count - corners + samples.numbers.line_count - features;
-  std::vector<LegendItem> items = {
-      {Mark::spot, palette::surface_sample, grouped(samples.places.count) + " on the surface"}};
-  if (features > 0) items.push_back({Mark::spot, palette::line_sample, grouped(features) + " on features"});
-  if (seams > 0) items.push_back({Mark::spot, palette::seam_sample, grouped(seams) + " on seams"});
-  if (corners > 0) items.push_back({Mark::spot, palette::corner, grouped(corners) + " at corners"});
-  return items;
-}
 
 }  // namespace
 
 bool draw_original(const std::string& file, const Frame& frame, const Surface& surface) {
-  const Model model = lightened(model_of(surface), most_faces);
+  const Model model = lightened(model_of(surface), most_drawn_faces);
   Page page(frame, model, "Original: " + triangles_text(surface.mesh.face_count()), FeatureLines::legend(surface));
   const FeatureLines features(page.view(), surface);
   draw_faces(page.svg(), page.view(), plain_look(page.view(), 0));
@@ -93,7 +28,7 @@ bool draw_original(const std::string& file, const Frame& frame, const Surface& s
 }
 
 bool draw_charts(const std::string& file, const Frame& frame, const Surface& surface, const isolod::Atlas& atlas) {
-  const Model model = lightened(model_of(surface), most_faces);
+  const Model model = lightened(model_of(surface), most_drawn_faces);
   std::vector<LegendItem> legend = FeatureLines::legend(surface);
   legend.insert(legend.begin(), LegendItem{Mark::line, palette::seam, "seam"});
   Page page(frame, model, "Charts: " + grouped(atlas.chart_count()), legend);
@@ -115,43 +50,26 @@ bool draw_charts(const std::string& file, const Frame& frame, const Surface& sur
 bool draw_samples(const std::string& file, const Frame& frame, const isolod::SampledSurface& samples,
                   std::size_t wished) {
   const Surface& surface = *samples.surface;
-  const Model model = lightened(model_of(surface), most_faces);
+  const Model model = lightened(model_of(surface), most_drawn_faces);
   const std::size_t nodes = samples.numbers.node_count, lines = samples.numbers.line_count;
   const std::size_t count = nodes + lines + samples.places.count;
   const std::string title = count < wished ? "Samples of the coarsest level: " : "Samples: ";
-  Page page(frame, model, title + grouped(count), sample_legend(samples));
-  SurfaceSpots corner(page.view()), feature(page.view()), seam(page.view()), inner(page.view());
-  for (const isolod::VertexId v : samples.backbones->node) {
-    if (page.view().may_show_vertex(v.value)) (surface.corner[v] ? corner : seam).add(surface.position(v));
-  }
-  for (std::size_t b = 0; b < samples.backbones->count(); ++b) {
-    SurfaceSpots& spots = is_feature(surface, *samples.backbones, b) ? feature : seam;
-    for (std::size_t i = samples.lines->start[b]; i < samples.lines->start[b + 1]; ++i) {
-      const isolod::LinePlace& place = samples.lines->place[i];
-      if (may_show_edge(page.view(), surface, samples.backbones->edge[place.edge]))
-        spots.add(line_place(samples, place));
-    }
-  }
-  for (const isolod::SurfacePlace& place : samples.places) {
-    if (page.view().may_show_face(place.face.value)) inner.add(surface_place(surface, place));
-  }
+  Page page(frame, model, title + grouped(count), SampleSpots::legend(samples));
+  const SampleSpots spots(page.view(), samples, samples.places);
   draw_faces(page.svg(), page.view(), plain_look(page.view(), 0.45));
   draw_outline(page.svg(), page.view());
   seam_lines(page.view(), surface).draw(page.svg(), palette::faint, 0.7);
-  const double diameter = std::clamp(0.4 * spacing_in_pixels(frame, model, count), 1.2, 6.5);
-  inner.draw(page.svg(), palette::surface_sample, diameter, 0);
-  seam.draw(page.svg(), palette::seam_sample, diameter, 0);
-  feature.draw(page.svg(), palette::line_sample, diameter * 1.1, 0);
-  corner.draw(page.svg(), palette::corner, std::max(diameter * 1.5, 4.5), 1);
+  const double diameter = std::clamp(0.4 * frame.camera.scale * spacing_of(model, count), 1.2, 6.5);
+  spots.draw(page.svg(), diameter);
   return page.write(file);
 }
 
 bool draw_result(const std::string& file, const Frame& frame, const Model& result) {
-  const Model model = lightened(result, most_faces);
+  const Model model = lightened(result, most_drawn_faces);
   Page page(frame, model,
             "Result: " + grouped(result.point.size()) + " vertices, " + triangles_text(result.face.size()), {});
   FaceLook look = plain_look(page.view(), 0);
-  const double spacing = spacing_in_pixels(frame, result, result.point.size());
+  const double spacing = frame.camera.scale * spacing_of(result, result.point.size());
   look.edge_width = std::clamp(0.045 * spacing, 0.1, 0.6);
   look.edge = mix(palette::outline, palette::clay, 0.3);
   draw_faces(page.svg(), page.view(), look);
@@ -229,7 +147,7 @@ bool draw_valence(const std::string& file, const Frame& frame, const Model& resu
     return thin[f] ? lit(palette::thin, 0.5 + 0.3 * view.light(f))
                    : mix(lit(palette::clay, view.light(f)), palette::paper, 0.5);
   };
-  const double spacing = spacing_in_pixels(frame, result, result.point.size());
+  const double spacing = frame.camera.scale * spacing_of(result, result.point.size());
   look.edge_width = std::clamp(0.05 * spacing, 0.1, 0.6);
   look.edge = rgb(0x9aa3b0);
   draw_faces(page.svg(), view, look);

@@ -97,14 +97,12 @@ void PathData::segment(Vec2 a, Vec2 b) {
   line_to(b);
 }
 
-Svg::Svg(double width, double height) {
-  const std::string w = in_units(width), h = in_units(height);
-  text_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + std::to_string(std::lround(width)) + "\" height=\"" +
-          std::to_string(std::lround(height)) + "\" viewBox=\"0 0 " + w + " " + h +
-          "\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\" "
-          "font-family=\"Helvetica Neue,Helvetica,Arial,Liberation Sans,DejaVu Sans,sans-serif\">\n<path fill=\"" +
-          hex(palette::paper) + "\" d=\"M0 0H" + w + "V" + h + "H0z\"/>\n";
+void Svg::open_box(Vec2 corner, double width, double height) {
+  text_ += "<svg x=\"" + in_units(corner.x) + "\" y=\"" + in_units(corner.y) + "\" width=\"" + in_units(width) +
+           "\" height=\"" + in_units(height) + "\">\n";
 }
+
+void Svg::close_box() { text_ += "</svg>\n"; }
 
 void Svg::path(const PathData& data, const PathStyle& style) {
   if (data.empty()) return;
@@ -125,6 +123,12 @@ void Svg::text(Vec2 p, double size, Colour colour, const std::string& text, Anch
 
 bool Svg::write(const std::string& file) const {
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  const std::string w = in_units(width_), h = in_units(height_);
+  out << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << std::lround(width_) << "\" height=\""
+      << std::lround(height_) << "\" viewBox=\"0 0 " << w << " " << h
+      << "\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\" "
+         "font-family=\"Helvetica Neue,Helvetica,Arial,Liberation Sans,DejaVu Sans,sans-serif\">\n<path fill=\""
+      << hex(palette::paper) << "\" d=\"M0 0H" << w << "V" << h << "H0z\"/>\n";
   out << text_ << "</svg>\n";
   out.close();
   return !out.fail();

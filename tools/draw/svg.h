@@ -60,7 +60,14 @@ enum class Anchor { start, middle, end };
 
 class Svg {
  public:
-  Svg(double width, double height);
+  Svg(double width, double height) : width_(width), height_(height) {}
+
+  /// For pages that grow while they are drawn.
+  void resize(double width, double height) { width_ = width, height_ = height; }
+
+  /// Until `close_box`, positions count from `corner`, and what lies outside of the box is not shown.
+  void open_box(Vec2 corner, double width, double height);
+  void close_box();
 
   void path(const PathData& data, const PathStyle& style);
   /// `size` in pixels; `text` may hold any UTF-8.
@@ -70,6 +77,7 @@ class Svg {
   bool write(const std::string& file) const;
 
  private:
+  double width_, height_;
   std::string text_;
 };
 

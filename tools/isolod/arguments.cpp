@@ -130,7 +130,7 @@ std::string Arguments::required_text(const std::string& option) const {
     const OptionRule& wanted = rule_of(option);
     fail_usage(std::string(rule_.name) + ": " + option + " " + wanted.value + " is missing");
   }
-  const std::string value = text(option, "");
+  std::string value = text(option, "");
   if (value.empty()) fail_usage("option " + option + " has an empty value");
   return value;
 }

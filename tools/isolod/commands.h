@@ -22,6 +22,9 @@ int command_compare(const Arguments& arguments);
 const CommandRule& make_rule();
 int command_make(const Arguments& arguments);
 
+const CommandRule& cut_rule();
+int command_cut(const Arguments& arguments);
+
 const CommandRule& validate_rule();
 int command_validate(const Arguments& arguments);
 

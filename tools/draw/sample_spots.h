@@ -1,0 +1,22 @@
+// Samples on the surface, by what they sit on.
+#pragma once
+
+#include "draw/layers.h"
+#include "draw/legend.h"
+#include "plane/chart_sites.h"
+
+namespace draw {
+
+class SampleSpots {
+ public:
+  /// `places`: where the surface samples are, as many as `samples.places`.
+  SampleSpots(const View& view, const isolod::SampledSurface& samples, isolod::Span<const isolod::SurfacePlace> places);
+  void draw(Svg& svg, double diameter) const;
+
+  static std::vector<LegendItem> legend(const isolod::SampledSurface& samples);
+
+ private:
+  SurfaceSpots corner_, feature_, seam_, inner_;
+};
+
+}  // namespace draw

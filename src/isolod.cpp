@@ -16,10 +16,15 @@
 #include "mesh/triangulation.cpp"
 #include "mesh/validate.cpp"
 
+#include "surface/close_boundaries.cpp"
 #include "surface/density.cpp"
 #include "surface/features.cpp"
+#include "surface/fill_hole.cpp"
 #include "surface/flat_flips.cpp"
+#include "surface/line_density.cpp"
+#include "surface/mesh_draft.cpp"
 #include "surface/refine.cpp"
+#include "surface/tagged_edges.cpp"
 
 #include "sample/backbones.cpp"
 #include "sample/calibrate.cpp"
@@ -53,6 +58,7 @@
 #include "plane/exact_moment.cpp"
 #include "plane/flatten.cpp"
 #include "plane/flatten_whole.cpp"
+#include "plane/gabriel.cpp"
 #include "plane/lloyd.cpp"
 #include "plane/locate.cpp"
 #include "plane/lscm.cpp"

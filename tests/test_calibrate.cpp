@@ -144,3 +144,23 @@ TEST_CASE("calibrate: a budget that does not hold the constant part gives rates 
   CHECK(rates(cube.features(30), 8, Calibration::paper).line == 0);
   CHECK(rates(cube, 9, Calibration::paper).line > 0);
 }
+
+TEST_CASE("calibrate: a line with a density of its own counts with it, on a boundary and inside, in both forms") {
+  Prepared square(flat({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0, 1, 2, 0, 2, 3}));
+  const std::uint32_t tags[] = {0, 1, 0, 2};
+  const double along[] = {3, 0.5};
+  square.view.tagged_edges = tags;
+  square.view.tagged_edge_count = 2;
+  square.features();
+  const DensityIntegrals before = integrate_density(square.surface);
+  CHECK(before.boundary == doctest::Approx(4));
+  CHECK(before.lines == doctest::Approx(4 + std::sqrt(2.0)));
+  square.view.tagged_edge_density = along;
+  const DensityIntegrals i = integrate_density(square.density(DensitySource::uniform).surface);
+  CHECK(i.surface == before.surface);
+  CHECK(i.boundary == doctest::Approx(3 + 3));
+  CHECK(i.lines == doctest::Approx(3 + 3 + 0.5 * std::sqrt(2.0)));
+  const Rates corrected = rates(square, 100), paper = rates(square, 100, Calibration::paper);
+  CHECK(corrected.surface + 0.5 * corrected.line * 6 + 1 == doctest::Approx(100));
+  CHECK(paper.surface + paper.line * i.lines + 4 == doctest::Approx(100));
+}

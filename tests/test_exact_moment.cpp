@@ -325,6 +325,8 @@ TEST_CASE("exact moment: cells with nothing in them, outside, and larger than al
   ExactMoment exact = moments_over(ground, block);
   CHECK(exact.integrate(WeightedPolygon(), {0.5, 0.5}, FaceId{0}).mass == 0);
   CHECK(exact.energy(polygon({{2, 2}, {3, 2}, {3, 3}}), {2.5, 2.3}, FaceId{7}) == 0);
+  CHECK(exact.integrate(polygon({{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}}), {0.5, 0.5}, FaceId{0}).mass == 0);
+  CHECK(exact.energy(polygon({{0.5, 0.5}, {0.5, 0.5}}), {0.5, 0.5}, FaceId{0}) == 0);
   const WeightedPolygon all = polygon({{-5, -4}, {6, -3}, {5, 7}, {-3, 5}});
   for (FaceId f : Ids<FaceId>(ground.face_count())) {
     CHECK(relative(exact.integrate(all, {0.5, 0.5}, f).mass, ground.mass()) < 1e-12);

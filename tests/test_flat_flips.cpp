@@ -161,6 +161,27 @@ TEST_CASE("flat_flips: densities go with their corners") {
   }
 }
 
+TEST_CASE("flat_flips: what a line was given stays with it, and a flipped edge has nothing") {
+  const Soup soup = needles(10);
+  Piece piece(soup, 0, support::edges_where(soup, [](Vec3 a, Vec3 b) {
+                const Vec3 rim = a.x == -0.9 ? b : a;  // each third spoke of the fan
+                return (a.x == -0.9) != (b.x == -0.9) && static_cast<int>((rim.x + 2 * rim.y + 5) * 10) % 3 == 0;
+              }));
+  Surface& s = piece.surface;
+  const auto wish = [&](HalfedgeId h) {
+    const std::uint32_t a = s.mesh.origin[h].value, b = s.mesh.target(h).value;
+    return s.line[h] == line_none ? 0.0F : static_cast<float>(1 + std::min(a, b) * 64 + std::max(a, b));
+  };
+  std::vector<float> given;
+  for (HalfedgeId h : Ids<HalfedgeId>(s.mesh.halfedge_count())) given.push_back(wish(h));
+  const std::vector<float> before = given;
+  s.given_line_density = {given.data(), given.size()};
+  flip_flat_edges(s, flatness_tolerance(s), 1000);
+  CHECK(given != before);
+  for (HalfedgeId h : Ids<HalfedgeId>(s.mesh.halfedge_count()))
+    CHECK(s.given_density(h) == static_cast<double>(wish(h)));
+}
+
 TEST_CASE("flat_flips: the shape may be small or large") {
   for (const double scale : {1e-9, 1e-3, 1e9}) {
     CAPTURE(scale);

@@ -176,6 +176,31 @@ TEST_CASE("line samples: backbones between the same two nodes get inner samples,
   CHECK(loops == 1);
 }
 
+TEST_CASE("line samples: a line with a density of its own gets that many more, in the same proportion along it") {
+  Prepared p(square());
+  const std::uint32_t tags[] = {0, 1, 1, 2, 2, 3, 3, 4};  // one side: its first half dense
+  const double along[] = {8, 8, 2, 2};
+  p.view.tagged_edges = tags;
+  p.view.tagged_edge_count = 4;
+  p.view.tagged_edge_density = along;
+  p.features().density(DensitySource::uniform).chain();
+  REQUIRE(p.backbones.count() == 4);
+  const LineSamples samples = sampled(p, 3);
+  for (std::size_t b = 0; b < 4; ++b) {
+    const bool is_dense = p.surface.given_density(p.backbones.edges(b)[0u]) > 0;
+    const double step = distance(p.surface.position(VertexId{0}), p.surface.position(VertexId{1}));
+    const double intervals = 3 * step * (is_dense ? 20 : 4);
+    CHECK(std::fabs(samples.interval_count(p.surface, p.backbones, b) - intervals) <= 1);
+    if (!is_dense) continue;
+    std::size_t in_first = 0;
+    for (std::uint32_t i = samples.start[b]; i < samples.start[b + 1]; ++i) {
+      const HalfedgeId h = p.backbones.edge[samples.place[i].edge];
+      in_first += p.surface.given_density(h) == 8;
+    }
+    CHECK(std::fabs(double(in_first) - intervals * 0.8) <= 1);
+  }
+}
+
 TEST_CASE("line samples: the same for a power of two as scale, bit for bit") {
   const shapes::Shape shape = made("bracket", 1500);
   Prepared one(shape), other(support::scaled(shape, 0x1p20));

@@ -2,12 +2,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/plane_shapes.h"
 
 using namespace isolod;
 using support::Piece;
+using support::Points;
 using support::Random;
 using support::SampledPiece;
 
@@ -95,6 +97,26 @@ double density_slope(const Relaxed& r, const std::function<double(Vec2)>& densit
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
+/// What one more iteration says.
+LloydReport report(Relaxed& relaxed) {
+  LloydReport r;
+  relaxed.lloyd.iterate(&r);
+  return r;
+}
+
+/// Per site: whether it may move and no angle of its faces is obtuse.
+std::vector<bool> acute_sites(const Relaxed& r) {
+  const PlaneTriangulation& plane = r.sites.plane;
+  std::vector<bool> acute(r.sites.sample.count);
+  for (VertexId v : Ids<VertexId>(acute.size())) acute[v.value] = r.is_movable(v);
+  for (HalfedgeId h : Ids<HalfedgeId>(plane.t.mesh.halfedge_count())) {
+    const Vec2 here = plane.point[plane.t.mesh.origin[h]];
+    if (dot(plane.point[plane.t.mesh.target(h)] - here, plane.point[plane.t.mesh.apex(h)] - here) >= 0) continue;
+    for (std::uint32_t k = 0; k < 3; ++k) acute[plane.t.mesh.origin[halfedge(face(h), k)].value] = false;
+  }
+  return acute;
+}
+
 void check_sound(const Relaxed& r, long euler) {
   REQUIRE(support::broken(r.sites.plane.t) == "");
   REQUIRE(support::euler(r.sites.plane.t) == euler);
@@ -105,7 +127,7 @@ void check_sound(const Relaxed& r, long euler) {
 
 TEST_CASE("lloyd: no face is inverted after any iteration, however wild the start and the step") {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    for (const double step : {1.0, 1.9, 6.0}) {
+    for (const double step : {1.0, 1.9, 6.0, 80.0}) {
       Piece piece(support::square_grid(6));
       if (seed % 2 == 1) piece.set_density([](Vec3 p) { return 1 + 30 * p.x * p.x; });
       SampledPiece sampled(piece, 150);
@@ -142,14 +164,194 @@ TEST_CASE("lloyd: uniform weight never lets the energy rise on a square, and spr
   }
 }
 
+namespace {
+
+/// Iterates and checks that the energy in the exact way does not rise; returns the first energy over the last.
+double check_energy_falls(SampledPiece& sampled, const LloydOptions& options, int iterations) {
+  Relaxed relaxed(sampled, options);
+  relaxed.lloyd.untangle();
+  const double first = report(relaxed).energy;
+  double before = first;
+  for (int i = 1; i < iterations; ++i) {
+    const double now = report(relaxed).energy;
+    INFO("iteration " << i << ": " << before << " then " << now << ", by " << now / before - 1);
+    CHECK(now <= before * (1 + 1e-12));
+    before = now;
+  }
+  return first / before;
+}
+
+/// A disk of radius r about the origin, as a grid whose squares become rings.
+support::Soup disk(std::uint32_t n, double r) {
+  return support::bent(support::square_grid(n, 2), [r](Vec3 p) {
+    const double x = p.x - 1, y = p.y - 1, far = std::max(std::fabs(x), std::fabs(y)), round = std::hypot(x, y);
+    return round > 0 ? Vec3{r * far * x / round, r * far * y / round, 0} : Vec3{0, 0, 0};
+  });
+}
+
+}  // namespace
+
+TEST_CASE("lloyd: with exact centroids the energy never rises, be the weight even or steep") {
+  struct Case {
+    const char* name;
+    std::function<double(Vec3)> density;
+  };
+  const Case cases[] = {
+      {"even", [](Vec3) { return 1.0; }},
+      {"16-fold", [](Vec3 p) { return std::pow(16, p.x); }},
+      {"a hill", [](Vec3 p) { return 1 + 40 * std::exp(-60 * ((p.x - 0.3) * (p.x - 0.3) + p.y * p.y)); }}};
+  for (const Case& c : cases) {
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+      for (const LloydWeight weight : {LloydWeight::equal, LloydWeight::paper}) {
+        Piece piece(support::square_grid(12));
+        piece.set_density(c.density);
+        SampledPiece sampled(piece, 200);
+        Random random(seed);
+        if (seed > 0) scatter(sampled, random, seed == 1 ? 288 : 40);  // all over, or crowded in a corner
+        INFO(c.name << ", seed " << seed << (weight == LloydWeight::paper ? ", d" : ", d^2"));
+        CHECK(check_energy_falls(sampled, with(weight, seed == 1 ? 1.5 : 1, Centroids::exact), 40) > 1.01);
+      }
+    }
+  }
+}
+
+TEST_CASE("lloyd: with exact centroids the energy never rises on maps of strong stretch") {
+  // The shadow of a steep slope, then a cap of the sphere under the stereographic map: 2 / (1 + r^2), squared.
+  for (int kind = 0; kind < 3; ++kind) {
+    Piece piece(kind == 0 ? support::bent(support::square_grid(14),
+                                          [](Vec3 p) {
+                                            return Vec3{p.x, p.y, 8 * p.x * p.x};
+                                          })
+                          : disk(16, kind == 1 ? 1.0 : 2.5));
+    SampledPiece sampled(piece, 250);
+    if (kind > 0) {
+      for (Vec3& p : piece.soup.positions) {
+        const double q = 1 + p.x * p.x + p.y * p.y;
+        p = {2 * p.x / q, 2 * p.y / q, 1 - 2 / q};
+      }
+    }
+    double least = 1e300, most = 0;
+    for (FaceId f : Ids<FaceId>(piece.surface.mesh.face_count())) {
+      Vec2f p[3];
+      for (std::uint32_t k = 0; k < 3; ++k) p[k] = sampled.uv[halfedge(f, k)];
+      const double stretch =
+          face_area(piece.surface, f) / (0.5 * cross(widen(p[1]) - widen(p[0]), widen(p[2]) - widen(p[0])));
+      least = std::min(least, stretch), most = std::max(most, stretch);
+    }
+    INFO("kind " << kind << ", stretch from " << least << " to " << most);
+    CHECK(most > (kind == 1 ? 3 : 12) * least);
+    CHECK(check_energy_falls(sampled, with(LloydWeight::equal, 1, Centroids::exact), 60) > 1.02);
+  }
+}
+
+TEST_CASE("lloyd: a step of more than twice the way raises the energy: the checks above can fail") {
+  Piece piece(support::square_grid(12));
+  SampledPiece sampled(piece, 200);
+  Relaxed relaxed(sampled, with(LloydWeight::equal, 2.4, Centroids::exact));
+  double before = report(relaxed).energy;
+  bool has_risen = false;
+  for (int i = 0; i < 20; ++i) {
+    const double now = report(relaxed).energy;
+    has_risen = has_risen || now > before * (1 + 1e-6);
+    before = now;
+  }
+  CHECK(has_risen);
+}
+
+TEST_CASE("lloyd: the energy that is reported is that of a quadrature over all sites") {
+  // The weight is linear everywhere, in both ways; the pixels give each place to the nearest site.
+  const auto weight = [](Vec2 p) { return 1 + 7 * p.x; };
+  for (const Centroids centroids : {Centroids::exact, Centroids::fast}) {
+    Piece piece(support::square_grid(8));
+    piece.set_density([&](Vec3 p) { return weight({p.x, p.y}); });
+    SampledPiece sampled(piece, 150);
+    Relaxed relaxed(sampled, with(LloydWeight::paper, 1, centroids));
+    for (int i = 0; i < 10; ++i) relaxed.lloyd.iterate();
+    const Points sites(relaxed.sites.plane.point.begin(), relaxed.sites.plane.point.end());
+    constexpr std::uint32_t n = 500;
+    double wanted = 0;
+    for (std::uint32_t i = 0; i < n * n; ++i) {
+      const Vec2 p{(i % n + 0.5) / n, (i / n + 0.5) / n};
+      double least = 1e300;
+      for (const Vec2 site : sites) least = smaller(least, dot(site - p, site - p));
+      wanted += weight(p) * least / (n * n);
+    }
+    const double energy = report(relaxed).energy;
+    INFO((centroids == Centroids::exact ? "exact " : "fast ") << energy / wanted - 1);
+    CHECK(energy == doctest::Approx(wanted).epsilon(centroids == Centroids::exact ? 2e-3 : 1e-2));
+  }
+}
+
+TEST_CASE("lloyd: exact and fast centroids agree where the weight is linear, for both weights") {
+  for (const LloydWeight kind : {LloydWeight::paper, LloydWeight::equal}) {
+    for (const bool with_line : {false, true}) {
+      const support::Soup soup = support::square_grid(8);  // its map is in single precision: exact here
+      const support::Edges tagged =
+          support::edges_where(soup, [&](Vec3 a, Vec3 b) { return with_line && a.x == 0.25 && b.x == 0.25; });
+      const auto target_of = [&](Centroids centroids, std::vector<bool>& is_inner) {
+        Piece piece(soup, 0, tagged);
+        piece.set_density([&](Vec3 p) {
+          const double w = 1 + 7 * p.x;
+          return kind == LloydWeight::paper ? w : std::sqrt(w);
+        });
+        SampledPiece sampled(piece, 300);
+        Relaxed relaxed(sampled, with(kind, 1, Centroids::exact));
+        for (int i = 0; i < 30; ++i) relaxed.lloyd.iterate();
+        Arena& arena = piece.block.arena;
+        Lloyd last;
+        REQUIRE(last.begin(piece.surface, relaxed.flat, relaxed.sites, relaxed.first_movable, with(kind, 1, centroids),
+                           arena)
+                    .is_ok());
+        is_inner = acute_sites(relaxed);
+        last.iterate();
+        return Points(relaxed.sites.plane.point.begin(), relaxed.sites.plane.point.end());
+      };
+      std::vector<bool> is_inner;
+      const Points exact = target_of(Centroids::exact, is_inner), fast = target_of(Centroids::fast, is_inner);
+      std::size_t inner = 0;
+      for (std::size_t v = 0; v < exact.size(); ++v) {
+        inner += is_inner[v];
+        CHECK(distance(exact[v], fast[v]) < (is_inner[v] ? 1e-8 : 0.002));  // the spacing is about 0.06
+      }
+      CHECK(inner > 100);
+    }
+  }
+}
+
+TEST_CASE("lloyd: a report counts the tagged sites, and looking changes nothing") {
+  for (const Centroids centroids : {Centroids::fast, Centroids::exact}) {
+    Piece piece(support::square_grid(6)), other(support::square_grid(6));
+    SampledPiece sampled(piece, 200), other_sampled(other, 200);
+    Relaxed seen(sampled, with(LloydWeight::equal, 1, centroids)),
+        unseen(other_sampled, with(LloydWeight::equal, 1, centroids));
+    LloydReport first, last;
+    for (int i = 0; i < 40; ++i) {
+      const std::vector<bool> acute_site = acute_sites(seen);
+      const auto acute = std::count(acute_site.begin(), acute_site.end(), true);
+      last = report(seen);
+      if (i == 0) first = last;
+      CHECK(last.gabriel_count >= acute);
+      CHECK(last.gabriel_count <= last.site_count);
+      unseen.lloyd.iterate();
+    }
+    CHECK(first.site_count == 200 - seen.first_movable);
+    CHECK(last.site_count == first.site_count);
+    CHECK(last.gabriel_count > 0.6 * last.site_count);
+    CHECK(first.gabriel_count < 0.7 * last.gabriel_count);
+    for (VertexId v : Ids<VertexId>(seen.sites.sample.count)) {
+      CHECK(distance(seen.sites.plane.point[v], unseen.sites.plane.point[v]) == 0);
+    }
+  }
+}
+
 TEST_CASE("lloyd: the way to go gets shorter, and sites on lines never move") {
   Piece piece(support::square_grid(6));
   SampledPiece sampled(piece, 200);
   Relaxed relaxed(sampled, with(LloydWeight::equal));
   std::vector<Vec2> start(relaxed.sites.plane.point.begin(), relaxed.sites.plane.point.end());
-  const double first = relaxed.lloyd.iterate();
+  const double first = report(relaxed).greatest_move;
   for (int i = 0; i < 60; ++i) relaxed.lloyd.iterate();
-  CHECK(relaxed.lloyd.iterate() < 0.2 * first);
+  CHECK(report(relaxed).greatest_move < 0.2 * first);
   std::uint32_t still = 0;
   for (VertexId v : Ids<VertexId>(start.size())) {
     if (relaxed.is_movable(v)) continue;
@@ -230,6 +432,35 @@ TEST_CASE("lloyd: sites stay on their side of a line, and in the domain when it 
       lifted = lifted + weight[k] * piece.surface.position(piece.surface.mesh.origin[halfedge(place.face, k)]);
     }
     CHECK(distance(lifted, {p.x, p.y, 0}) < 1e-6);  // the map is in single precision
+  }
+}
+
+TEST_CASE("lloyd: sites stay in the domain where a chord leaves it") {
+  // The lower side is a wave that the samples are too sparse for: chords cut its crests off. All sites start in a heap
+  // over a crest, which spreads.
+  const auto bump = [](double x) { return 0.12 * (1 - std::cos(12.56637061436 * x)); };
+  const support::Soup soup = support::bent(support::square_grid(64), [&](Vec3 p) {
+    return Vec3{p.x, p.y + (1 - p.y) * bump(p.x), 0};
+  });
+  for (const std::uint32_t vertices : {30u, 40u, 50u}) {
+    for (const Centroids centroids : {Centroids::fast, Centroids::exact}) {
+      Piece piece(soup);
+      SampledPiece sampled(piece, vertices);
+      Random random(vertices);
+      for (SurfacePlace& place : sampled.places) {
+        place = {FaceId{2 * (64 * random.below(6) + 12 + random.below(8))}, 0.3 * random.unit(), 0.3 * random.unit()};
+      }
+      Relaxed relaxed(sampled, with(LloydWeight::equal, 1.9, centroids));
+      relaxed.lloyd.untangle();
+      for (int i = 0; i < 40; ++i) {
+        relaxed.lloyd.iterate();
+        for (VertexId v : Ids<VertexId>(relaxed.sites.sample.count)) {
+          const Vec2 p = relaxed.sites.plane.point[v];
+          INFO(vertices << " vertices, iteration " << i << ", at " << p.x << " " << p.y);
+          if (relaxed.is_movable(v)) CHECK(p.y > bump(p.x) - 0.003);  // the grid's own chords
+        }
+      }
+    }
   }
 }
 

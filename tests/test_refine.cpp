@@ -136,6 +136,35 @@ TEST_CASE("refine: a midpoint has the mean density of its edge's ends, wedge by 
   CHECK(wrong == 0);
 }
 
+TEST_CASE("refine: the halves of a line have the density that it was given, and no other edge gets any") {
+  Prepared p("bracket", 500);
+  p.features(30);
+  Surface& s = p.surface;
+  std::vector<float> given(s.mesh.halfedge_count(), 0);
+  std::map<float, double> before, after;  // length by density
+  for (HalfedgeId h : Ids<HalfedgeId>(given.size())) {
+    const HalfedgeId t = s.mesh.twin[h];
+    const std::uint32_t lower = t.is_none() || h < t ? h.value : t.value;
+    if (s.line[h] != line_none) given[h.value] = static_cast<float>(lower % 5);
+    before[given[h.value]] += s.line[h] != line_none ? edge_length(s, h) : 0;
+  }
+  s.given_line_density = {given.data(), given.size()};
+  REQUIRE(before.size() == 5);
+  refine_all(p, 6);  // flips in planes, and splits
+  REQUIRE(s.given_line_density.count == s.mesh.halfedge_count());
+  CHECK(s.mesh.halfedge_count() > given.size());
+  int wrong = 0;
+  for (HalfedgeId h : Ids<HalfedgeId>(s.mesh.halfedge_count())) {
+    const float d = s.given_line_density[h];
+    if (s.line[h] == line_none) wrong += d != 0;
+    if (!s.mesh.is_boundary(h)) wrong += d != s.given_line_density[s.mesh.twin[h]];
+    after[d] += s.line[h] != line_none ? edge_length(s, h) : 0;
+  }
+  CHECK(wrong == 0);
+  CHECK(after.size() == 5);
+  for (const auto& [density, length] : before) CHECK(after[density] == doctest::Approx(length).epsilon(1e-12));
+}
+
 TEST_CASE("refine: what is fine already stays as it is") {
   Prepared p("sphere", 320);
   p.features();

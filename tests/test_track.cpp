@@ -16,8 +16,9 @@ double hill(double x, double y) { return 1 + 15 * std::exp(-3 * ((x - 1) * (x - 
 /// A track of one's own: lengths of edges and densities at vertices.
 struct Straight {
   Straight(const std::vector<double>& steps, const std::vector<double>& wish, std::uint32_t first = 0)
-      : arc(1, 0), mass(1, 0), density(wish) {
+      : arc(1, 0), mass(1, 0) {
     for (std::size_t k = 0; k < steps.size(); ++k) {
+      density.insert(density.end(), {wish[k], wish[k + 1]});
       arc.push_back(arc.back() + steps[k]);
       mass.push_back(mass.back() + steps[k] * (wish[k] + wish[k + 1]) / 2);
     }
@@ -39,7 +40,7 @@ double integral(const Track& track, const LinePlace& place) {
     double sum = 0;
     for (int i = 0; i < n; ++i) {
       const double t = to * (i + 0.5) / n;
-      sum += track.density[k] * (1 - t) + track.density[k + 1] * t;
+      sum += track.density[2 * k] * (1 - t) + track.density[2 * k + 1] * t;
     }
     return sum / n * to * (track.arc[k + 1] - track.arc[k]);
   };
@@ -87,8 +88,10 @@ TEST_CASE("track: arcs are sums of lengths, densities those of the vertices, on 
       for (std::size_t k = 0; k <= edges.count; ++k) {
         CHECK(track.arc[k] == doctest::Approx(arc).epsilon(1e-13));
         // The library may scale all densities by one number.
-        CHECK(track.density[k] / track.density[0u] == doctest::Approx(at[k] / at[0]).epsilon(1e-6));
-        if (k < edges.count) arc += edge_length(rim.surface, edges[k]);
+        if (k > 0) CHECK(track.density[2 * k - 1] / track.density[0u] == doctest::Approx(at[k] / at[0]).epsilon(1e-6));
+        if (k == edges.count) continue;
+        CHECK(track.density[2 * k] / track.density[0u] == doctest::Approx(at[k] / at[0]).epsilon(1e-6));
+        arc += edge_length(rim.surface, edges[k]);
       }
       CHECK(track.whole_length() == track.arc[edges.count]);
       CHECK(track.whole_mass() == doctest::Approx(integral(track, {track.first + track.edge_count() - 1, 1})));
@@ -116,11 +119,34 @@ TEST_CASE("track: inside a surface both sides of a line count, at every vertex u
     const Span<const HalfedgeId> edges = p.backbones.edges(b);
     for (std::size_t k = 0; k < edges.count; ++k) {
       const HalfedgeId t = p.surface.mesh.twin[edges[k]];
-      CHECK(track.density[k] == doctest::Approx(root_of_mean(edges[k], next(t))).epsilon(1e-14));
+      CHECK(track.density[2 * k] == doctest::Approx(root_of_mean(edges[k], next(t))).epsilon(1e-14));
+      CHECK(track.density[2 * k + 1] == doctest::Approx(root_of_mean(next(edges[k]), t)).epsilon(1e-14));
     }
-    const HalfedgeId last = edges[edges.count - 1];
-    const double end = root_of_mean(next(last), p.surface.mesh.twin[last]);
-    CHECK(track.density[edges.count] == doctest::Approx(end).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("track: densities that are given edge by edge jump at vertices, and masses follow them") {
+  Prepared p(support::fan(support::square(10)));
+  p.features().chain();
+  std::vector<float> given(p.surface.mesh.halfedge_count());
+  for (std::size_t h = 0; h < given.size(); ++h) given[h] = static_cast<float>(1 + h * 37 % 101);
+  p.surface.given_line_density = {given.data(), given.size()};
+  Track track;
+  REQUIRE(begin_track(p.backbones, track, p.block.arena).is_ok());
+  REQUIRE(p.backbones.count() == 4);
+  for (std::size_t b = 0; b < 4; ++b) {
+    fill_track(p.surface, p.backbones, b, track);
+    double mass = 0;
+    for (std::uint32_t k = 0; k < track.edge_count(); ++k) {
+      const double d = static_cast<double>(given[p.backbones.edges(b)[k].value]);
+      CHECK(track.mass[k] == doctest::Approx(mass).epsilon(1e-13));
+      CHECK(mass_at(track, {track.first + k, 0.25}) == doctest::Approx(mass + d * 0.2 / 4).epsilon(1e-13));
+      const LinePlace place = place_at_mass(track, mass + d * 0.2 * 0.75);
+      CHECK(place.edge == track.first + k);
+      CHECK(place.along == doctest::Approx(0.75).epsilon(1e-12));
+      mass += d * 0.2;
+    }
+    CHECK(track.whole_mass() == doctest::Approx(mass).epsilon(1e-13));
   }
 }
 
@@ -138,7 +164,7 @@ TEST_CASE("track: a shorter backbone after a longer one leaves nothing of it") {
     fill_track(rim.surface, rim.backbones, b, rim.track);
     CHECK(rim.track.edge_count() == rim.backbones.edges(b).count);
     CHECK(rim.track.mass.count == rim.track.arc.count);
-    CHECK(rim.track.density.count == rim.track.arc.count);
+    CHECK(rim.track.density.count == std::size_t{2} * rim.track.edge_count());
     CHECK(rim.track.whole_length() == doctest::Approx(2));
   }
 }

@@ -147,6 +147,36 @@ awk 'NR > 2 && NR <= 2 + n { print 1 + $1 * $1 } NR == 2 { n = $1 }' torus.off >
 runs "given density" 0 "$isolod" remesh torus.off --vertices 700 --density density.txt -o result.off
 echo 1 >density.txt
 refuses "density of another mesh" 23 "density.txt: " "$isolod" remesh torus.off --vertices 700 --density density.txt -o x.off
+printf '1\nthree\n' >words.txt
+refuses "density that is no number" 23 "words.txt: line 2" "$isolod" remesh torus.off --vertices 700 --density words.txt -o x.off
+awk 'NR == 2 { n = $2 } END { for (i = 0; i < 3 * n; ++i) print 1 + i % 3 }' torus.off >density.txt
+runs "density of corners" 0 "$isolod" remesh torus.off --vertices 700 --density density.txt -o result.off
+echo -1 >>density.txt
+sed -i.old 1d density.txt
+refuses "density of a corner that is negative" 16 "triangle" "$isolod" remesh torus.off --vertices 700 --density density.txt -o x.off
+"$isolod" make cube --triangles 12 -o cube.obj >output.txt 2>errors.txt
+sed -n '/^f /{s/^f //p;q;}' cube.obj | awk '{ print "# one edge\n\n" $1 - 1, $2 - 1, "# and no more" }' >edges.txt
+runs "feature edges" 0 "$isolod" remesh cube.obj --vertices 300 --feature-edges edges.txt --report run.json -o result.obj
+holds "the edge's ends are corners" grep -Eq '"corners": 2,?$' run.json
+few="$(sed -n 's/.*"feature_samples": \([0-9]*\).*/\1/p' run.json)"
+sed 's/ # and no more/ 3/' edges.txt >denser.txt
+runs "feature edges with a density" 0 "$isolod" remesh cube.obj --vertices 300 --feature-edges denser.txt --report run.json -o result.obj
+many="$(sed -n 's/.*"feature_samples": \([0-9]*\).*/\1/p' run.json)"
+holds "have more samples" test "${many:-0}" -gt "$((2 * ${few:-1000}))"
+refuses "an edge of one vertex" 23 "edges.txt: line 4" sh -c "echo 7 >>edges.txt && '$isolod' remesh cube.obj --vertices 300 --feature-edges edges.txt -o x.off"
+refuses "an edge to no vertex" 14 "one.txt: line 1" sh -c "echo 0 99999 >one.txt && '$isolod' remesh cube.obj --vertices 300 --feature-edges one.txt -o x.off"
+refuses "an edge by name" 23 "one.txt: line 1" sh -c "echo 0 -1 >one.txt && '$isolod' remesh cube.obj --vertices 300 --feature-edges one.txt -o x.off"
+refuses "an edge without density" 16 "one.txt: line 1" sh -c "echo 0 1 0 >one.txt && '$isolod' remesh cube.obj --vertices 300 --feature-edges one.txt -o x.off"
+refuses "no such list of edges" 21 "none.txt" "$isolod" remesh cube.obj --vertices 300 --feature-edges none.txt -o x.off
+"$isolod" make sphere --triangles 5000 -o sphere.off >output.txt 2>errors.txt
+"$isolod" cut sphere.off --plane 0,0,1,0.995 -o open.off >output.txt 2>errors.txt
+runs "a hole is kept" 0 "$isolod" remesh open.off --vertices 60 -o result.off
+runs "info on it" 0 "$isolod" info result.off
+holds "with its border" grep -Eq '^boundary loops +1$' output.txt
+runs "a hole closes" 0 "$isolod" remesh open.off --vertices 60 --close-boundaries --report run.json -o result.off
+holds "the report says so" grep -Eq '"closed_loops": 1,?$' run.json
+runs "info on what was closed" 0 "$isolod" info result.off
+holds "no border is left" grep -Eq '^boundary loops +0$' output.txt
 refuses "too few vertices" 17 "vertices work" "$isolod" remesh bracket.off --vertices 5 --features 40 -o x.off
 works="$(sed -n 's/.*: \([0-9]*\) vertices work.*/\1/p' errors.txt)"
 runs "the number that is named works" 0 "$isolod" remesh bracket.off --vertices "${works:-0}" --features 40 -o x.off

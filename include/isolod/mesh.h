@@ -23,9 +23,19 @@ struct MeshView {
   const void* indices = nullptr;  ///< three vertex indices a triangle, in `index_type`
   std::size_t triangle_count = 0;
 
-  const double* vertex_density = nullptr;       ///< wished samples per area, a number a vertex, up to scale; or null
+  const double* vertex_density = nullptr;  ///< d_s: wished samples per area, a number a vertex, up to scale; or null
+  /// d_s with a value of its own on each side of a feature: three numbers a triangle, one at each of its corners, in
+  /// the order of `indices`; goes before `vertex_density`; or null. Between two features a vertex has one density: the
+  /// mean of its corners there, weighted by the areas of their triangles.
+  const double* corner_density = nullptr;
+
   const std::uint32_t* tagged_edges = nullptr;  ///< two vertex indices an edge: feature edges besides the found ones
   std::size_t tagged_edge_count = 0;
+  /// d_f: wished samples per length, a number a tagged edge, constant along it, in the unit of the root of d_s; 0: the
+  /// root of d_s; or null for all. So the wished spacings are 1 / d_f along the edge and 1 / sqrt(d_s) beside it, times
+  /// the same number. Where d_s is uniform it is 1; where it is computed, 1 to 256^gamma. Of an edge that is tagged
+  /// twice the later number counts.
+  const double* tagged_edge_density = nullptr;
   const std::uint32_t* triangle_materials = nullptr;  ///< an edge between two materials is a feature; or null
 };
 

@@ -9,7 +9,7 @@ inline namespace v1 {
 /// Where the wished density of samples comes from (paper, section 2).
 enum class DensitySource : std::uint8_t {
   uniform,    ///< the same everywhere
-  given,      ///< `MeshView::vertex_density`
+  given,      ///< `MeshView::corner_density`, or else `MeshView::vertex_density`
   curvature,  ///< the absolute mean curvature to the power `Options::gamma`
 };
 
@@ -38,6 +38,15 @@ enum class AtlasKind : std::uint8_t {
            ///< its map folds
 };
 
+/// How a component with handles is cut for one chart (section 4.1). All stay within a few percent of each other where
+/// the surface is tame; the spine, made short, is the shortest of those that are fast.
+enum class CutKind : std::uint8_t {
+  spine,        ///< what is left when its faces are retracted, straightened (section 4.1.1)
+  loops,        ///< the greedy system of loops (section 4.1.2)
+  short_loops,  ///< the same, loops shortened one after the other, sharing edges where that is shorter
+  greedy,       ///< the greedy cut graph
+};
+
 /// The order in which the error of rounding flows over triangles (section 3.3).
 enum class Fluency : std::uint8_t {
   automatic,
@@ -60,6 +69,7 @@ struct Options {
   bool smooth_undersampled = true;
 
   AtlasKind atlas = AtlasKind::charts;
+  CutKind cut = CutKind::spine;     ///< for a single chart
   bool fall_back_to_charts = true;  ///< where a single chart folds; false: the status is no_convergence
   Calibration calibration = Calibration::corrected;
   Fluency fluency = Fluency::automatic;
@@ -70,6 +80,10 @@ struct Options {
   /// Relax once more in charts that overlap, so that no seam is left, coarse to fine on surfaces without lines. False:
   /// all samples are diffused at once, and the first mesh is the result, as the paper has it.
   bool remove_seams = true;
+
+  /// A boundary loop whose length comes to fewer than three samples closes, corners or not (section 3.4), unless it is
+  /// the rim of a sheet or the closed component would have too few vertices. False: it keeps three.
+  bool close_boundaries = false;
 
   bool weld = false;      ///< merge vertices at exactly equal positions first
   bool validate = false;  ///< check the whole result before it is handed out, also in unchecked builds

@@ -53,7 +53,8 @@ struct Report {
   RepairReport repair;
 
   std::uint32_t components = 0;
-  std::uint32_t boundary_loops = 0;
+  std::uint32_t boundary_loops = 0;  ///< of the result
+  std::uint32_t closed_loops = 0;    ///< of the input, closed because `Options::close_boundaries` allowed it
   std::uint32_t corners = 0;
   std::uint32_t backbones = 0;
   std::uint32_t charts = 0;
@@ -65,6 +66,17 @@ struct Report {
   std::uint64_t result_hash = 0;  ///< of the raw bits of the output
 };
 
+/// One iteration of Lloyd's relaxation in one flat chart, as things were before its sites moved (paper, sections 4.4.1
+/// and 6).
+struct LloydReport {
+  std::uint32_t chart = 0;
+  std::uint32_t iteration = 0;      ///< from 0 on
+  std::uint32_t site_count = 0;     ///< samples of the chart that may move
+  std::uint32_t gabriel_count = 0;  ///< of these, how many have Gabriel edges only: their cells are not clipped
+  double energy = 0;         ///< the integral of weight times squared distance to the nearest sample, over the chart
+  double greatest_move = 0;  ///< in mean spacings
+};
+
 /// What a run may call while it works. Each may be null.
 struct Hooks {
   void* context = nullptr;
@@ -72,6 +84,9 @@ struct Hooks {
   bool (*progress)(void* context, const char* stage, double share) = nullptr;
   /// Seconds from any fixed moment. Only the report uses it.
   double (*clock)(void* context) = nullptr;
+  /// Called after every iteration of every chart, charts in order. A run that starts again from a finer first mesh
+  /// begins again with chart 0. Without it the energy is not computed.
+  void (*lloyd)(void* context, const LloydReport& report) = nullptr;
 };
 
 /// The result of a run: lies in the arena until that is used again.

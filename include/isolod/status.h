@@ -28,7 +28,8 @@ struct [[nodiscard]] Status {
     too_large,             ///< more elements than 32-bit indices can name
     index_out_of_range,    ///< `value` is the first triangle (or tagged edge) that names no vertex
     position_not_finite,   ///< `value` is the first vertex with NaN or infinity
-    density_not_positive,  ///< `value` is the first vertex whose density is not a positive finite number
+    density_not_positive,  ///< `value` is the first vertex, triangle or tagged edge with a density that is not positive
+                           ///< and finite
     budget_too_small,      ///< the topology and the corners need more; `value` vertices work
     out_of_memory,         ///< the block is too small; `value` bytes do
     no_convergence,        ///< a bounded loop reached its bound with no usable result

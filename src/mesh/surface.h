@@ -1,7 +1,8 @@
 // The surface that is remeshed: connectivity of our own, positions read from the caller's memory.
 //
 // Vertices below source_vertex.count are the caller's (a vertex cut apart by repair has several copies); later ones are
-// edge midpoints that refinement added. Faces that refinement split keep the number of the caller's triangle.
+// middles of holes that were closed and edge midpoints that refinement added. Faces that refinement split keep the
+// number of the caller's triangle; a face over a hole has that of a triangle beside it.
 #pragma once
 
 #include "base/vector.h"
@@ -25,17 +26,21 @@ struct Surface {
   const MeshView* view = nullptr;
   Span<const std::uint32_t> source_vertex;  ///< per unrefined vertex: the caller's
   Span<const std::uint32_t> source_face;    ///< per face: the caller's triangle
-  Span<const Vec3> midpoint;                ///< positions of the vertices that refinement added
+  Span<const Vec3> midpoint;                ///< positions of the vertices that were added
   Halfedges mesh;
-  Span<std::uint8_t> line;    ///< per halfedge, equal on twins: bits of LineKind
-  Span<std::uint8_t> corner;  ///< per vertex: 1 at a corner of the feature skeleton
-  Span<float> wedge_density;  ///< per halfedge: d_s at its origin, in its wedge; empty: 1 everywhere
+  Span<std::uint8_t> line;         ///< per halfedge, equal on twins: bits of LineKind
+  Span<std::uint8_t> corner;       ///< per vertex: 1 at a corner of the feature skeleton
+  Span<float> wedge_density;       ///< per halfedge: d_s at its origin, in its wedge; empty: 1 everywhere
+  Span<float> given_line_density;  ///< per halfedge, equal on twins: d_f as the caller gave it, 0: from d_s; or empty
 
   Vec3 position(VertexId v) const {
     const std::size_t sources = source_vertex.count;
     return v.value < sources ? read_position(*view, source_vertex[v]) : midpoint[v.value - sources];
   }
   double density(HalfedgeId h) const { return wedge_density.empty() ? 1.0 : static_cast<double>(wedge_density[h]); }
+  double given_density(HalfedgeId h) const {
+    return given_line_density.empty() ? 0.0 : static_cast<double>(given_line_density[h]);
+  }
 };
 
 /// Twice the area of a face as a vector along its normal.

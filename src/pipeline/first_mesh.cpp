@@ -91,11 +91,8 @@ void plan_run(State& s, const DensityIntegrals& integrals, std::uint32_t most_sp
   s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
 }
 
-Status step_calibrate(State& s, bool& done, std::uint64_t& units) {
-  units = elements_a_piece;
-  s.integrate.step(s.surface);
-  done = s.integrate.done();
-  if (!done) return {};
+/// The rates that the integrals come to, and what the run is made of.
+Status set_rates(State& s) {
   const DensityIntegrals& integrals = s.integrate.integrals();
   s.report.corners = integrals.corner_count;
   s.rates = solve_rates(integrals, s.options.vertex_count, s.options.calibration);
@@ -103,6 +100,35 @@ Status step_calibrate(State& s, bool& done, std::uint64_t& units) {
   plan_run(s, integrals, s.has_lines || !s.options.remove_seams ? 0 : LevelPlan::most_splits);
   if (s.rates.line > 0 && s.first_rates.line > 0) return {};
   return fail(Status::budget_too_small, Element::count, least_budget(s, integrals));
+}
+
+Status step_calibrate(State& s, bool& done, std::uint64_t& units) {
+  units = elements_a_piece;
+  s.integrate.step(s.surface);
+  done = s.integrate.done();
+  return done ? set_rates(s) : Status();
+}
+
+/// Closes what the rates are too coarse for, and calibrates again: area, boundary and topology are others then.
+Status step_close(State& s, bool& done, std::uint64_t& units) {
+  units = elements_a_piece;
+  if (!s.options.close_boundaries || s.report.boundary_loops == 0) {
+    done = true;
+    return {};
+  }
+  if (!s.stage_begun) return s.close.begin(s.surface, {s.rates.line, s.options.corner_angle}, *s.arena);
+  if (!s.close.done()) {
+    ISOLOD_TRY(s.close.step(s.surface, *s.arena));
+    done = s.close.done() && s.close.loops().closed == 0;
+    if (s.close.done() && !done) s.integrate = IntegrateDensity();
+    return {};
+  }
+  s.integrate.step(s.surface);
+  done = s.integrate.done();
+  if (!done) return {};
+  s.report.closed_loops = s.close.loops().closed;
+  s.report.boundary_loops -= s.report.closed_loops;
+  return set_rates(s);
 }
 
 Status step_refine(State& s, bool& done, std::uint64_t& units) {
@@ -119,6 +145,7 @@ Status step_atlas(State& s, bool& done, std::uint64_t& units) {
     s.before_atlas = s.arena->mark();
     ChartingOptions options;
     options.kind = s.options.atlas;
+    options.single.kind = s.options.cut;
     options.fall_back_to_charts = s.options.fall_back_to_charts;
     options.atlas.line_rate = s.first_rates.line;
     options.atlas.surface_rate = s.first_rates.surface;
@@ -224,6 +251,18 @@ std::size_t result_face_count(const State& s) {
   return faces > 0 ? static_cast<std::size_t>(faces) : 0;
 }
 
+/// Tells the caller of every iteration who asked for it; else nothing is measured.
+void relax_sites(const State& s, std::uint32_t chart, Lloyd& lloyd) {
+  lloyd.untangle();
+  for (std::uint32_t i = 0; i < s.options.lloyd_iterations; ++i) {
+    LloydReport report;
+    report.chart = chart;
+    report.iteration = i;
+    lloyd.iterate(s.hooks.lloyd == nullptr ? nullptr : &report);
+    if (s.hooks.lloyd != nullptr) s.hooks.lloyd(s.hooks.context, report);
+  }
+}
+
 Status step_charts(State& s, bool& done, std::uint64_t& units) {
   if (!s.stage_begun) ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.plan.first_count, *s.arena));
   const ScratchScope scope(*s.arena);
@@ -235,8 +274,7 @@ Status step_charts(State& s, bool& done, std::uint64_t& units) {
   ISOLOD_TRY(triangulate_sites(s.sampled(), flat, chart, sites, *s.arena));
   const std::uint32_t first_movable = s.numbers.node_count + s.numbers.line_count;
   ISOLOD_TRY(lloyd.begin(s.surface, flat, sites, first_movable, {s.options.weight, s.options.centroids, 1}, *s.arena));
-  lloyd.untangle();
-  for (std::uint32_t i = 0; i < s.options.lloyd_iterations; ++i) lloyd.iterate();
+  relax_sites(s, static_cast<std::uint32_t>(chart), lloyd);
   for (VertexId v : Ids<VertexId>(sites.sample.count)) {
     if (sites.sample[v].value >= first_movable) s.places[sites.sample[v].value - first_movable] = lloyd.lift(v);
   }
@@ -316,11 +354,12 @@ Status step_validate(State& s, bool& done, std::uint64_t& units) {
 const StageEntry stage_entries[] = {
     {"repair", step_repair, hash_repaired, 0.05},    {"halfedge", step_halfedge, hash_surface, 0.02},
     {"features", step_features, hash_lines, 0.02},   {"density", step_density, hash_density, 0.02},
-    {"calibrate", step_calibrate, hash_rates, 0.01}, {"refine", step_refine, hash_surface, 0.02},
-    {"atlas", step_atlas, hash_atlas, 0.4},          {"lines", step_lines, hash_line_samples, 0.01},
-    {"diffuse", step_diffuse, hash_places, 0.02},    {"charts", step_charts, hash_places, 0.4},
-    {"stitch", step_stitch, hash_samples, 0.02},     {"levels", step_levels, hash_samples, 0.5},
-    {"lift", step_lift, hash_result, 0.01},          {"validate", step_validate, hash_result, 0.01},
+    {"calibrate", step_calibrate, hash_rates, 0.01}, {"close", step_close, hash_closed, 0.01},
+    {"refine", step_refine, hash_surface, 0.02},     {"atlas", step_atlas, hash_atlas, 0.4},
+    {"lines", step_lines, hash_line_samples, 0.01},  {"diffuse", step_diffuse, hash_places, 0.02},
+    {"charts", step_charts, hash_places, 0.4},       {"stitch", step_stitch, hash_samples, 0.02},
+    {"levels", step_levels, hash_samples, 0.5},      {"lift", step_lift, hash_result, 0.01},
+    {"validate", step_validate, hash_result, 0.01},
 };
 const std::uint32_t stage_entry_count = sizeof stage_entries / sizeof stage_entries[0];
 

@@ -1,5 +1,7 @@
 #include "pipeline/single_chart.h"
 
+#include "atlas/greedy_cut.h"
+#include "atlas/loop_shortening.h"
 #include "base/sort.h"
 #include "base/status.h"
 
@@ -70,6 +72,39 @@ Status SingleChart::find_components(Arena& arena) {
   for (std::uint32_t c = 0; c < count; ++c) {
     for (std::uint32_t i = start_[c]; i < start_[c + 1]; ++i) place_[order_[i]] = i - start_[c];
   }
+  return {};
+}
+
+Status SingleChart::cut_by_loops(Span<std::uint8_t> cut, Arena& arena) {
+  LoopSystem loops;
+  ISOLOD_TRY(find_loops(*surface_, length_, {}, loops, arena));
+  if (options_.kind == CutKind::short_loops) ISOLOD_TRY(shorten_loops(*surface_, length_, {}, loops, arena));
+  cut_along(*surface_, loops, cut);
+  return {};
+}
+
+/// Gives components with handles the cut that was asked for, in one piece; the others keep theirs.
+Status SingleChart::cut_handles(Arena& arena) {
+  const ArenaMark results = arena.mark();
+  const ScratchScope scope(arena);
+  Span<std::uint8_t> other, is_cut;
+  ISOLOD_TRY(arena.scratch(cut_.count, other));
+  ISOLOD_TRY(arena.scratch(reports_.count, is_cut));
+  if (options_.kind == CutKind::greedy) {
+    ISOLOD_TRY(make_greedy_cut(*surface_, length_, {}, other, arena));
+  } else {
+    ISOLOD_TRY(cut_by_loops(other, arena));
+  }
+  arena.rewind_results(results);
+  for (std::uint8_t& c : is_cut) c = 0;
+  for (HalfedgeId h : Ids<HalfedgeId>(other.count)) is_cut[label_[face(h)]] |= other[h];
+  for (HalfedgeId h : Ids<HalfedgeId>(other.count)) {
+    if (!is_cut[label_[face(h)]]) other[h] = cut_[h];
+  }
+  CutTopology topology;
+  ISOLOD_TRY(measure_cut(*surface_, other, topology, arena));
+  if (!topology.is_planar() || topology.pieces != topology.components) return {};
+  for (std::size_t i = 0; i < cut_.count; ++i) cut_[i] = other[i];
   return {};
 }
 
@@ -171,7 +206,8 @@ Status SingleChart::advance(Arena& arena) {
     case Phase::cut:
       if (!cut_graph_.done()) return cut_graph_.step();
       phase_ = Phase::chart;
-      return cut_graph_.finish();
+      ISOLOD_TRY(cut_graph_.finish());
+      return options_.kind == CutKind::spine ? Status() : cut_handles(arena);
     case Phase::chart:
       if (extensions_ == 0) is_sphere_ = is_closed_sphere();
       return begin_map(arena);

@@ -6,6 +6,10 @@
 // section 3. A map is better if it has fewer tangles, or as many and is conformal where the other is not, or its
 // stretch range is at most half of the other's. The best map's cut stays, no more of it than was needed.
 //
+// A component with handles may be cut in another way that was asked for (CutKind). Loops are cut along their union: the
+// strips between passes of one edge hold no face and need no map. Where the union would leave several pieces, which
+// only such strips join, the spine stays.
+//
 // Guarantees: every verdict that is `good` is a map of positive triangles, each inner vertex turned about once,
 // exactly. A verdict `flipped` or `distorted` is no failure: the caller cuts such a component into charts
 // (make_atlas.h).
@@ -13,12 +17,14 @@
 
 #include "atlas/chart.h"
 #include "atlas/cut_graph.h"
+#include "isolod/options.h"
 #include "plane/flatten_whole.h"
 
 namespace isolod {
 inline namespace v1 {
 
 struct SingleChartOptions {
+  CutKind kind = CutKind::spine;
   EdgeMetricOptions metric;
   CutGraphOptions cut;
   FlattenWholeOptions flatten;
@@ -57,6 +63,8 @@ class SingleChart {
   Status advance(Arena& arena);
   Status give_up(Status status, Arena& arena);
   Status find_components(Arena& arena);
+  Status cut_handles(Arena& arena);
+  Status cut_by_loops(Span<std::uint8_t> cut, Arena& arena);
   void mark_seams(Span<const FaceId> faces, Span<const std::uint8_t> cut);
   Status begin_map(Arena& arena);
   Status judge(Arena& arena);

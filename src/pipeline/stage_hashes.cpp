@@ -46,8 +46,11 @@ std::uint64_t hash_surface(const State& s) {
   return hash_of(s.surface.mesh.origin, s.surface.source_face, s.surface.midpoint);
 }
 std::uint64_t hash_lines(const State& s) { return hash_of(s.surface.line, s.surface.corner); }
-std::uint64_t hash_density(const State& s) { return hash_of(s.surface.wedge_density); }
+std::uint64_t hash_density(const State& s) { return hash_of(s.surface.wedge_density, s.surface.given_line_density); }
 std::uint64_t hash_rates(const State& s) { return hash_of(s.rates, s.first_rates, s.plan.splits, s.plan.first_count); }
+std::uint64_t hash_closed(const State& s) {
+  return hash_of(s.surface.mesh.origin, s.surface.midpoint, s.surface.line, s.surface.corner, s.rates);
+}
 std::uint64_t hash_atlas(const State& s) { return hash_of(s.atlas.chart_of_face, s.maps.rounded, s.maps.exact); }
 std::uint64_t hash_line_samples(const State& s) { return hash_of(s.lines.start, s.lines.place); }
 std::uint64_t hash_places(const State& s) { return hash_of(s.chart_start, s.places); }

@@ -11,6 +11,7 @@ std::uint64_t hash_surface(const Remesher::State& s);
 std::uint64_t hash_lines(const Remesher::State& s);
 std::uint64_t hash_density(const Remesher::State& s);
 std::uint64_t hash_rates(const Remesher::State& s);
+std::uint64_t hash_closed(const Remesher::State& s);
 std::uint64_t hash_atlas(const Remesher::State& s);
 std::uint64_t hash_line_samples(const Remesher::State& s);
 std::uint64_t hash_places(const Remesher::State& s);

@@ -9,6 +9,7 @@
 #include "result/stitch.h"
 #include "sample/calibrate.h"
 #include "sample/diffuse.h"
+#include "surface/close_boundaries.h"
 #include "surface/density.h"
 #include "surface/features.h"
 #include "surface/refine.h"
@@ -40,6 +41,7 @@ struct Remesher::State {
   FindDensity density;
   IntegrateDensity integrate;
   Rates rates;
+  CloseBoundaries close;
   Refine refine;
   Charting charting;
   Atlas atlas;
@@ -77,7 +79,7 @@ extern const StageEntry stage_entries[];
 extern const std::uint32_t stage_entry_count;
 
 /// Places in `stage_entries`: where a run starts again, and behind which a budget is known to be enough.
-constexpr std::uint32_t atlas_stage = 6, lines_stage = 7;
+constexpr std::uint32_t atlas_stage = 7, lines_stage = 8;
 
 }  // namespace v1
 }  // namespace isolod

@@ -127,7 +127,7 @@ double squared_room(const WeightedPolygon& cell, Vec2 site) {
     const double twice_area = greater(0, cross(a, b)), squared = dot(b - a, b - a);
     if (squared > 0) least = smaller(least, twice_area * twice_area / squared);
   }
-  return (1 - 0x1p-40) * least;
+  return least < DBL_MAX ? (1 - 0x1p-40) * least : 0;  // all corners at one point: no room
 }
 
 /// A face as the site sees it.

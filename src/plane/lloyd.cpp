@@ -15,6 +15,8 @@ Status Lloyd::begin(const Surface& surface, const FlatChart& flat, ChartSites& s
   ISOLOD_TRY(arena.scratch(flat.chart.mesh.halfedge_count(), corner_weight_));
   ISOLOD_TRY(arena.scratch(sites.sample.count, site_weight_));
   ISOLOD_TRY(arena.scratch(sites.sample.count, target_));
+  ISOLOD_TRY(arena.scratch(sites.sample.count, landing_));
+  ISOLOD_TRY(gabriel_.begin(sites.sample.count, arena));
   ISOLOD_TRY(corners_.begin(sites.plane.t.mesh.face_count(), arena));
   fill_weights(surface, options.weight);
   if (is_exact()) ISOLOD_TRY(exact_.begin(ground_, corner_weight_, arena));
@@ -98,63 +100,136 @@ void Lloyd::untangle() {
   }
 }
 
-void Lloyd::find_targets() {
+/// Mass and first moment of v's cell about v.
+Moment Lloyd::moment_of(VertexId v) {
   const PlaneTriangulation& plane = sites_->plane;
-  corners_.update(plane);
-  WeightedPolygon cell;
+  if (!is_exact() && gabriel_.is_tagged(v)) return gabriel_.moment(v);
+  Moment sum;
+  WeightedPolygon part;
+  CellParts parts(plane, corners_, weights_in_cells(), v);
+  while (parts.advance(part)) {
+    const Moment moment = is_exact() ? exact_.integrate(part, plane.point[v], sites_->home[v])
+                                     : integrate(part, plane.point[v], site_weight_[v]);
+    sum.mass += moment.mass;
+    sum.first = sum.first + moment.first;
+  }
+  return sum;
+}
+
+void Lloyd::find_targets() {
   for (VertexId v : Ids<VertexId>(sites_->sample.count)) {
     if (!is_movable(v)) continue;
-    make_cell(plane, corners_, site_weight_, v, cell);
-    const Vec2 site = plane.point[v];
-    const Moment moment =
-        is_exact() ? exact_.integrate(cell, site, sites_->home[v]) : integrate(cell, site, site_weight_[v]);
-    if (moment.mass > 0) target_[v] = site + options_.step / moment.mass * moment.first;
+    const Moment moment = moment_of(v);
+    if (moment.mass > 0) target_[v] = sites_->plane.point[v] + options_.step / moment.mass * moment.first;
   }
 }
 
-/// Halves the steps at every face that would not be positive, at last to nothing.
-void Lloyd::limit_steps() {
+/// A face of the chart on that side of v: v itself may lie on a line, with its home beyond it.
+FaceId Lloyd::start_of(VertexId v, HalfedgeId side) const {
+  const Halfedges& mesh = sites_->plane.t.mesh;
+  if (is_movable(v)) return sites_->home[v];
+  if (is_movable(mesh.target(side))) return sites_->home[mesh.target(side)];
+  return is_movable(mesh.apex(side)) ? sites_->home[mesh.apex(side)] : sites_->home[v];
+}
+
+/// The integral of weight times squared distance over v's cell.
+double Lloyd::energy_of(VertexId v) {
+  const Vec2 site = sites_->plane.point[v];
+  double sum = 0;
+  WeightedPolygon part;
+  CellParts parts(sites_->plane, corners_, weights_in_cells(), v);
+  while (parts.advance(part)) {
+    sum += is_exact() ? exact_.energy(part, site, start_of(v, parts.side())) : energy(part, site, site_weight_[v]);
+  }
+  return sum;
+}
+
+/// Of all sites, those on lines too: only so do the cells tile the domain, and the energy never rises.
+void Lloyd::measure_cells(LloydReport& report) {
+  report.site_count = report.gabriel_count = 0;
+  report.energy = 0;
+  for (VertexId v : Ids<VertexId>(sites_->sample.count)) {
+    report.energy += energy_of(v);
+    if (!is_movable(v)) continue;
+    ++report.site_count;
+    report.gabriel_count += gabriel_.is_tagged(v);
+  }
+}
+
+/// From the sites to their targets, in units of the mean spacing.
+double Lloyd::greatest_move() const {
   const PlaneTriangulation& plane = sites_->plane;
   const Halfedges& mesh = plane.t.mesh;
-  constexpr std::uint32_t most_rounds = 6;
-  for (std::uint32_t round = 0; round <= most_rounds; ++round) {
-    std::uint32_t inverted = 0;
-    for (FaceId f : Ids<FaceId>(mesh.face_count())) {
-      VertexId corner[3];
-      for (std::uint32_t k = 0; k < 3; ++k) corner[k] = mesh.origin[halfedge(f, k)];
-      if (orient2d(target_[corner[0]], target_[corner[1]], target_[corner[2]]) > 0) continue;
-      ++inverted;
-      const double keep = round < most_rounds ? 0.5 : 0;
-      for (VertexId v : corner) target_[v] = plane.point[v] + keep * (target_[v] - plane.point[v]);
-    }
-    if (inverted == 0) return;
-  }
-}
-
-double Lloyd::iterate() {
-  PlaneTriangulation& plane = sites_->plane;
-  find_targets();
-  limit_steps();
   double greatest = 0, area = 0;
   for (VertexId v : Ids<VertexId>(sites_->sample.count)) {
-    if (!is_movable(v)) continue;
-    const Location location = locate(ground_, sites_->home[v], target_[v]);
-    if (!location.blocked.is_none()) target_[v] = plane.point[v];
-    greatest = greater(greatest, distance(target_[v], plane.point[v]));
+    if (is_movable(v)) greatest = greater(greatest, distance(target_[v], plane.point[v]));
   }
-  limit_steps();
-  for (VertexId v : Ids<VertexId>(sites_->sample.count)) {
-    if (!is_movable(v)) continue;
-    plane.point[v] = target_[v];
-    look_up(v, locate(ground_, sites_->home[v], target_[v]));
-  }
-  flip_all(plane, 16);
-  const Halfedges& mesh = plane.t.mesh;
   for (FaceId f : Ids<FaceId>(mesh.face_count())) {
     const Vec2 a = plane.point[mesh.origin[halfedge(f, 0)]];
     area += absolute(cross(plane.point[mesh.origin[halfedge(f, 1)]] - a, plane.point[mesh.origin[halfedge(f, 2)]] - a));
   }
-  return greatest / square_root(area / static_cast<double>(mesh.face_count()));
+  return area > 0 ? greatest / square_root(area / static_cast<double>(mesh.face_count())) : 0;
+}
+
+/// Shortens the steps at every face that they would invert, all three to that part. Whether there was one. A face that
+/// none of its corners leaves is not looked at.
+bool Lloyd::shorten_steps(double keep) {
+  const PlaneTriangulation& plane = sites_->plane;
+  const Halfedges& mesh = plane.t.mesh;
+  bool any = false;
+  for (FaceId f : Ids<FaceId>(mesh.face_count())) {
+    VertexId corner[3];
+    bool moves = false;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      corner[k] = mesh.origin[halfedge(f, k)];
+      moves = moves || is_going(corner[k]);
+    }
+    if (!moves || orient2d(target_[corner[0]], target_[corner[1]], target_[corner[2]]) > 0) continue;
+    any = true;
+    for (VertexId v : corner) {
+      const Vec2 from = plane.point[v];
+      target_[v] = keep > 0 ? from + keep * (target_[v] - from) : from;
+    }
+  }
+  return any;
+}
+
+/// Afterwards no step inverts a face: what a few halvings do not mend is dropped, face by face, in the end everywhere.
+void Lloyd::limit_steps(std::uint32_t halvings) {
+  constexpr std::uint32_t most_drops = 64;
+  for (std::uint32_t round = 0; round < halvings + most_drops; ++round) {
+    if (!shorten_steps(round < halvings ? 0.5 : 0)) return;
+  }
+  for (VertexId v : Ids<VertexId>(sites_->sample.count)) target_[v] = sites_->plane.point[v];
+}
+
+/// Looks up where the steps end, and drops those that leave the domain.
+void Lloyd::find_landings() {
+  for (VertexId v : Ids<VertexId>(sites_->sample.count)) {
+    if (!is_movable(v) || !is_going(v)) continue;
+    const Location location = locate(ground_, sites_->home[v], target_[v]);
+    landing_[v] = location.face;
+    if (!location.blocked.is_none()) target_[v] = sites_->plane.point[v];
+  }
+}
+
+void Lloyd::iterate(LloydReport* report) {
+  PlaneTriangulation& plane = sites_->plane;
+  corners_.update(plane);
+  if (!is_exact() || report != nullptr) gabriel_.tag(plane, corners_);
+  if (!is_exact()) gabriel_.sum(plane, corners_, site_weight_);
+  if (report != nullptr) measure_cells(*report);
+  find_targets();
+  limit_steps(6);
+  find_landings();
+  limit_steps(0);  // steps are dropped only: what is left still ends where it was looked up
+  if (report != nullptr) report->greatest_move = greatest_move();
+  for (VertexId v : Ids<VertexId>(sites_->sample.count)) {
+    if (!is_movable(v) || !is_going(v)) continue;
+    plane.point[v] = target_[v];
+    look_up(v, {landing_[v], none<HalfedgeId>()});
+  }
+  flip_all(plane, 64);
 }
 
 }  // namespace v1

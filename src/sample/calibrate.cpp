@@ -3,22 +3,6 @@
 namespace isolod {
 inline namespace v1 {
 
-namespace {
-constexpr double root_of_three = 1.7320508075688772935;
-}
-
-double line_density(const Surface& surface, HalfedgeId h) {
-  double d = surface.density(h);
-  if (const HalfedgeId t = surface.mesh.twin[h]; !t.is_none()) d = 0.5 * (d + surface.density(next(t)));
-  return square_root(d);
-}
-
-double edge_density(const Surface& surface, HalfedgeId h) {
-  double far = surface.density(next(h));
-  if (const HalfedgeId t = surface.mesh.twin[h]; !t.is_none()) far = 0.5 * (far + surface.density(t));
-  return edge_length(surface, h) * 0.5 * (line_density(surface, h) + square_root(far));
-}
-
 void IntegrateDensity::add_edge(const Surface& surface, HalfedgeId h) {
   const HalfedgeId t = surface.mesh.twin[h];
   if (!t.is_none() && t < h) return;
@@ -65,11 +49,11 @@ Rates solve_rates(const DensityIntegrals& integrals, std::uint32_t vertex_count,
       static_cast<double>(vertex_count) -
       (as_printed ? static_cast<double>(integrals.corner_count) : static_cast<double>(integrals.euler_characteristic));
   if (!(constant > 0)) return {};
-  const double quadratic = 2 / root_of_three * integrals.surface;
+  const double quadratic = samples_a_square * integrals.surface;
   const double half_linear = as_printed ? 0.5 * integrals.lines : 0.25 * integrals.boundary;
   // q R^2 + 2 h R = c, in the form that loses no digits: R = c / (h + sqrt(h^2 + q c)).
   const double line = constant / (half_linear + square_root(half_linear * half_linear + quadratic * constant));
-  return {2 / root_of_three * line * line, line};
+  return {samples_a_square * line * line, line};
 }
 
 }  // namespace v1

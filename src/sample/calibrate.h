@@ -8,7 +8,7 @@
 
 #include "base/sweep.h"
 #include "isolod/options.h"
-#include "mesh/surface.h"
+#include "surface/line_density.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -26,12 +26,6 @@ struct Rates {
   double surface = 0;  ///< R_s: samples per unit of surface density
   double line = 0;     ///< R_f: intervals per unit of line density
 };
-
-/// d_f at the origin of a line halfedge: the root of the mean of d_s on its one or two sides.
-double line_density(const Surface& surface, HalfedgeId h);
-
-/// The integral of d_f over an edge: it is linear there.
-double edge_density(const Surface& surface, HalfedgeId h);
 
 /// A stage: step until done. O(n) time, no memory.
 class IntegrateDensity {

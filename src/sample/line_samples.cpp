@@ -52,6 +52,21 @@ Status raise_parallel(Span<Wish> wishes, Arena& arena) {
   return {};
 }
 
+std::uint32_t line_degree(const Surface& surface, VertexId v) {
+  std::uint32_t degree = 0;
+  visit_outgoing(surface.mesh, v, [&](HalfedgeId h) { degree += surface.line[h] != line_none; });
+  return degree;
+}
+
+/// How many intervals a backbone needs at least: a loop three, and a seam that meets no other line two, or its two
+/// sides would be the whole rim of a chart.
+std::uint32_t least_intervals(const Surface& surface, const Backbones& backbones, std::size_t b, Ends ends) {
+  if (ends.first == ends.last) return 3;
+  const bool is_alone = !is_feature(surface, backbones, b) && line_degree(surface, backbones.node[ends.first]) == 1 &&
+                        line_degree(surface, backbones.node[ends.last]) == 1;
+  return is_alone ? 2 : 1;
+}
+
 Status make_wishes(const Surface& surface, const Backbones& backbones, Span<Wish>& wishes, Arena& arena) {
   ISOLOD_TRY(arena.scratch(backbones.count(), wishes));
   for (std::size_t b = 0; b < wishes.count; ++b) {
@@ -59,7 +74,7 @@ Status make_wishes(const Surface& surface, const Backbones& backbones, Span<Wish
     for (HalfedgeId h : backbones.edges(b)) density += edge_density(surface, h);
     const bool closed = is_closed(surface, backbones, b);
     const Ends ends = closed ? Ends{UINT32_MAX, UINT32_MAX} : ends_of(surface, backbones, b);
-    wishes[b] = {density, ends.first == ends.last ? 3u : 1u, 0, ends};
+    wishes[b] = {density, least_intervals(surface, backbones, b, ends), 0, ends};
   }
   return raise_parallel(wishes, arena);
 }

@@ -32,8 +32,8 @@ class CellWalk {
     const double low = track_.arc[edge_] + offset_, high = track_.arc[edge_ + 1] + offset_;
     const double a = greater(from, low), b = smaller(to, high);
     if (!(b > a)) return;
-    const double slope = (weight_[edge_ + 1] - weight_[edge_]) / (high - low);
-    const double at_a = weight_[edge_] + slope * (a - low), at_b = weight_[edge_] + slope * (b - low);
+    const double near = weight_[2 * edge_], slope = (weight_[2 * edge_ + 1] - near) / (high - low);
+    const double at_a = near + slope * (a - low), at_b = near + slope * (b - low);
     mass_ += 0.5 * (b - a) * (at_a + at_b);
     moment_ += (b - a) * ((a - middle) * (2 * at_a + at_b) + (b - middle) * (at_a + 2 * at_b)) / 6;
   }
@@ -58,7 +58,7 @@ class LineLloyd {
  public:
   Status begin(const Backbones& backbones, const LineSamples& samples, Arena& arena) {
     ISOLOD_TRY(begin_track(backbones, track_, arena));
-    ISOLOD_TRY(arena.scratch(track_.arc.count, weight_));
+    ISOLOD_TRY(arena.scratch(track_.density.count, weight_));
     ISOLOD_TRY(arena.scratch(most_samples(samples), now_));
     return arena.scratch(now_.count, next_);
   }

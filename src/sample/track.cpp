@@ -6,16 +6,6 @@
 namespace isolod {
 inline namespace v1 {
 
-namespace {
-
-/// d_f at the target of a line halfedge, on its own sides.
-double density_at_target(const Surface& surface, HalfedgeId h) {
-  const HalfedgeId t = surface.mesh.twin[h];
-  return t.is_none() ? square_root(surface.density(next(h))) : line_density(surface, t);
-}
-
-}  // namespace
-
 Status begin_track(const Backbones& backbones, Track& track, Arena& arena) {
   std::size_t longest = 0;
   for (std::size_t b = 0; b < backbones.count(); ++b) {
@@ -24,21 +14,23 @@ Status begin_track(const Backbones& backbones, Track& track, Arena& arena) {
   }
   ISOLOD_TRY(arena.scratch(longest + 1, track.arc));
   ISOLOD_TRY(arena.scratch(longest + 1, track.mass));
-  return arena.scratch(longest + 1, track.density);
+  return arena.scratch(2 * longest, track.density);
 }
 
 void fill_track(const Surface& surface, const Backbones& backbones, std::size_t b, Track& track) {
   const Span<const HalfedgeId> edges = backbones.edges(b);
   track.first = backbones.start[b];
   track.closed = is_closed(surface, backbones, b);
-  track.arc.count = track.mass.count = track.density.count = edges.count + 1;
+  track.arc.count = track.mass.count = edges.count + 1;
+  track.density.count = 2 * edges.count;
   track.arc[0u] = track.mass[0u] = 0;
-  for (std::size_t k = 0; k < edges.count; ++k) track.density[k] = line_density(surface, edges[k]);
-  track.density[edges.count] = density_at_target(surface, edges[edges.count - 1]);
   for (std::size_t k = 0; k < edges.count; ++k) {
     const double step = edge_length(surface, edges[k]);
+    const double near = line_density(surface, edges[k]), far = line_density_at_end(surface, edges[k]);
+    track.density[2 * k] = near;
+    track.density[2 * k + 1] = far;
     track.arc[k + 1] = track.arc[k] + step;
-    track.mass[k + 1] = track.mass[k] + step * (0.5 * (track.density[k] + track.density[k + 1]));
+    track.mass[k + 1] = track.mass[k] + step * (0.5 * (near + far));
   }
 }
 
@@ -55,7 +47,7 @@ LinePlace place_on(const Track& track, std::uint32_t k, double arc) {
 
 double mass_at(const Track& track, const LinePlace& place) {
   const std::uint32_t k = place.edge - track.first;
-  const double near = track.density[k], far = track.density[k + 1], t = place.along;
+  const double near = track.density[2 * k], far = track.density[2 * k + 1], t = place.along;
   return track.mass[k] + (track.arc[k + 1] - track.arc[k]) * t * (near + 0.5 * t * (far - near));
 }
 
@@ -75,7 +67,7 @@ std::uint32_t vertex_after(const Track& track, double mass) {
 LinePlace place_at_mass(const Track& track, double mass) {
   const std::uint32_t after = vertex_after(track, mass), last = track.edge_count() - 1;
   const std::uint32_t k = after == 0 ? 0 : after - 1 > last ? last : after - 1;
-  const double near = track.density[k], far = track.density[k + 1], step = track.arc[k + 1] - track.arc[k];
+  const double near = track.density[2 * k], far = track.density[2 * k + 1], step = track.arc[k + 1] - track.arc[k];
   if (!(step > 0)) return {track.first + k, 0};
   // near t + (far - near) t^2 / 2 = rest, in the form that loses no digits.
   const double rest = greater(0, mass - track.mass[k]) / step;

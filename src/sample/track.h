@@ -1,9 +1,10 @@
 // One backbone laid out straight: arc length and running density at its vertices.
 //
 // Paper, section 4.4.2: "we parameterize each backbone independently on a segment without any length distortion". The
-// density d_f is linear between vertices, so that places and masses turn into each other in closed form. Vertex k is
-// the origin of edge k; the last one is the target of the last edge, which on a closed backbone is vertex 0 again. Room
-// for the longest backbone is taken once: 24 bytes an edge of it. O(edges) time to fill, O(log edges) a look-up.
+// density d_f is linear along an edge, so that places and masses turn into each other in closed form; where the caller
+// gave it edge by edge it jumps at vertices. Vertex k is the origin of edge k; the last one is the target of the last
+// edge, which on a closed backbone is vertex 0 again. Room for the longest backbone is taken once: 32 bytes an edge of
+// it. O(edges) time to fill, O(log edges) a look-up.
 #pragma once
 
 #include "sample/line_samples.h"
@@ -14,7 +15,7 @@ inline namespace v1 {
 struct Track {
   Span<double> arc;         ///< per vertex: length from vertex 0
   Span<double> mass;        ///< per vertex: integral of d_f from vertex 0
-  Span<double> density;     ///< per vertex: d_f
+  Span<double> density;     ///< two per edge: d_f at its origin and at its target
   std::uint32_t first = 0;  ///< of its edges in Backbones::edge
   bool closed = false;
 

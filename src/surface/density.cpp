@@ -2,6 +2,7 @@
 
 #include "base/elementary.h"
 #include "base/status.h"
+#include "surface/tagged_edges.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -9,6 +10,8 @@ inline namespace v1 {
 namespace {
 
 constexpr double least_curvature = 1, greatest_curvature = 256;  // in units of 1 / diagonal
+constexpr double least_density = 1e-12;                          // of the greatest one
+constexpr double least_line_density = 1e-6, greatest_line_density = 1e12;
 
 /// Calls visit(h) for each halfedge out of the origin of `first`, which starts a wedge, within that wedge.
 template <class Visit>
@@ -72,15 +75,94 @@ void fill_curvature(Surface& surface, HalfedgeId h, double scale, double gamma) 
   visit_wedge(surface, h, [&](HalfedgeId w) { surface.wedge_density[w] = d; });
 }
 
+bool is_positive(double d) { return d > 0 && d < 1e300; }
+
 /// The greatest of the densities that the caller gives, all of which must be positive.
 Status find_greatest_given(const Surface& surface, double& greatest) {
-  const double* given = surface.view->vertex_density;
-  if (given == nullptr) return fail(Status::invalid_option, Element::option, 3);  // Options::density
+  const double* at_vertex = surface.view->vertex_density;
+  const double* at_corner = surface.view->corner_density;
+  if (at_vertex == nullptr && at_corner == nullptr) return fail(Status::invalid_option, Element::option, 3);
   greatest = 0;
+  if (at_corner != nullptr) {
+    for (std::uint32_t source : surface.source_face) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double d = at_corner[3 * std::size_t{source} + k];
+        if (!is_positive(d)) return fail(Status::density_not_positive, Element::triangle, source);
+        greatest = greater(greatest, d);
+      }
+    }
+    return {};
+  }
   for (std::uint32_t source : surface.source_vertex) {
-    const double d = given[source];
-    if (!(d > 0) || !(d < 1e300)) return fail(Status::density_not_positive, Element::vertex, source);
+    const double d = at_vertex[source];
+    if (!is_positive(d)) return fail(Status::density_not_positive, Element::vertex, source);
     greatest = greater(greatest, d);
+  }
+  return {};
+}
+
+/// A linear function on a triangle of the caller's, at a point of its plane; a point outside takes the nearest bounds.
+double linear_at(const Vec3 (&corner)[3], const double* value, Vec3 p) {
+  const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  double sum = 0, weights = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double w = greater(0, dot(normal, cross(corner[(k + 1) % 3] - p, corner[(k + 2) % 3] - p)));
+    sum += w * value[k];
+    weights += w;
+  }
+  return weights > 0 ? sum / weights : (value[0] + value[1] + value[2]) / 3;
+}
+
+/// What the caller gives at the origin of `h`, in its triangle. Welding may have replaced the vertex by one at the same
+/// place, and the mending of a flat triangle may have put it on a side of the triangle.
+double given_density_at(const Surface& surface, HalfedgeId h) {
+  const MeshView& view = *surface.view;
+  const std::uint32_t vertex = surface.source_vertex[surface.mesh.origin[h]];
+  if (view.corner_density == nullptr) return view.vertex_density[vertex];
+  const std::size_t first = 3 * std::size_t{surface.source_face[face(h)]};
+  const double* const value = view.corner_density + first;
+  const Vec3 p = read_position(view, vertex);
+  Vec3 corner[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t v = read_index(view, first + k);
+    corner[k] = read_position(view, v);
+    if (v == vertex || distance(corner[k], p) == 0) return value[k];
+  }
+  return linear_at(corner, value, p);
+}
+
+/// The corners of a wedge take their mean, weighted by area.
+void unite_wedge(Surface& surface, HalfedgeId h) {
+  if (!starts_wedge(surface, h)) return;
+  double mass = 0, area = 0, sum = 0, count = 0;
+  visit_wedge(surface, h, [&](HalfedgeId w) {
+    const double a = face_area(surface, face(w)), d = surface.density(w);
+    mass += a * d, area += a, sum += d, count += 1;
+  });
+  const float mean = static_cast<float>(area > 0 ? mass / area : sum / count);
+  visit_wedge(surface, h, [&](HalfedgeId w) { surface.wedge_density[w] = mean; });
+}
+
+/// Fills `given_line_density`, in units of `unit`; left empty where none is given.
+Status take_line_densities(Surface& surface, double unit, Arena& arena) {
+  const MeshView& view = *surface.view;
+  surface.given_line_density = {};
+  if (view.tagged_edge_density == nullptr || view.tagged_edge_count == 0) return {};
+  for (std::size_t e = 0; e < view.tagged_edge_count; ++e) {
+    const double d = view.tagged_edge_density[e];
+    if (d != 0 && !is_positive(d)) return fail(Status::density_not_positive, Element::edge, e);
+  }
+  ISOLOD_TRY(arena.result(surface.mesh.halfedge_count(), surface.given_line_density));
+  for (float& d : surface.given_line_density) d = 0;
+  const ScratchScope scope(arena);
+  TaggedEdges edges;
+  ISOLOD_TRY(edges.begin(surface, arena));
+  for (std::size_t e = 0; e < view.tagged_edge_count; ++e) {
+    const double given = view.tagged_edge_density[e] / unit;
+    const double clamped = smaller(greatest_line_density, greater(least_line_density, given));
+    const float d = given > 0 ? static_cast<float>(clamped) : 0.0f;
+    edges.visit_between(surface, view.tagged_edges[2 * e], view.tagged_edges[2 * e + 1],
+                        [&](HalfedgeId h) { surface.given_line_density[h] = d; });
   }
   return {};
 }
@@ -120,12 +202,11 @@ Status FindDensity::begin(Surface& surface, const DensityOptions& options, Arena
   pass_ = 0;
   mark_ = arena.mark();
   surface.wedge_density = {};
+  const bool is_given = options.source == DensitySource::given;
+  if (is_given) ISOLOD_TRY(find_greatest_given(surface, scale_));
+  ISOLOD_TRY(take_line_densities(surface, is_given ? square_root(scale_) : 1, arena));
   if (options.source == DensitySource::uniform) return {};
-  if (options.source == DensitySource::given) {
-    ISOLOD_TRY(find_greatest_given(surface, scale_));
-  } else {
-    scale_ = diagonal(surface);
-  }
+  if (!is_given) scale_ = diagonal(surface);
   ISOLOD_TRY(arena.result(surface.mesh.halfedge_count(), surface.wedge_density));
   phase_ = Phase::fill;
   return options.smoothing_passes == 0 ? Status() : arena.scratch(surface.mesh.face_count(), face_mean_);
@@ -133,8 +214,7 @@ Status FindDensity::begin(Surface& surface, const DensityOptions& options, Arena
 
 void FindDensity::fill(Surface& surface, HalfedgeId h) const {
   if (options_.source == DensitySource::curvature) return fill_curvature(surface, h, scale_, options_.gamma);
-  const double relative = surface.view->vertex_density[surface.source_vertex[surface.mesh.origin[h]]] / scale_;
-  surface.wedge_density[h] = static_cast<float>(greater(relative, 1e-12));
+  surface.wedge_density[h] = static_cast<float>(greater(given_density_at(surface, h) / scale_, least_density));
 }
 
 void FindDensity::step(Surface& surface, Arena& arena) {
@@ -142,6 +222,11 @@ void FindDensity::step(Surface& surface, Arena& arena) {
   switch (phase_) {
     case Phase::fill:
       if (!sweep_.over<HalfedgeId>(halfedges, [&](HalfedgeId h) { fill(surface, h); })) return;
+      phase_ = Phase::unite;
+      if (options_.source == DensitySource::given && surface.view->corner_density != nullptr) return;
+      break;
+    case Phase::unite:
+      if (!sweep_.over<HalfedgeId>(halfedges, [&](HalfedgeId h) { unite_wedge(surface, h); })) return;
       break;
     case Phase::mean:
       if (sweep_.over<FaceId>(faces, [&](FaceId f) { face_mean_[f] = mean_of_corners(surface, f); })) {

@@ -27,19 +27,22 @@ struct DensityOptions {
 std::uint32_t undersampling_passes(std::size_t input_count, std::uint32_t vertex_count);
 
 /// A stage: begin, step until done. Fills `surface.wedge_density`, 4 bytes a halfedge of results; left empty when
-/// uniform. Curvature is made free of scale by the diagonal of the bounding box and clamped to [1, 256] before it is
-/// raised to gamma. O(n (1 + passes)) time; 4 bytes a face of scratch, given back at the end.
+/// uniform. Where the caller gives densities of tagged edges also `surface.given_line_density`, as much again, and for
+/// a moment 8 bytes a vertex of scratch. Given densities are divided by the greatest d_s, or its root, and clamped: d_s
+/// to at least 1e-12, d_f to 1e-6 to 1e12. Curvature is made free of scale by the diagonal of the bounding box and
+/// clamped to [1, 256] before it is raised to gamma. O(n (1 + passes)) time; 4 bytes a face of scratch, given back at
+/// the end.
 class FindDensity {
  public:
-  /// Fails with density_not_positive on a given density that is not a positive finite number, and with invalid_option
-  /// where none is given.
+  /// Fails with density_not_positive on a given density that is not a positive finite number and names its vertex,
+  /// triangle or tagged edge; with invalid_option where none is given. Features come first: they check the tags.
   Status begin(Surface& surface, const DensityOptions& options, Arena& arena);
   /// A range of halfedges or faces.
   void step(Surface& surface, Arena& arena);
   bool done() const { return phase_ == Phase::done; }
 
  private:
-  enum class Phase : std::uint8_t { fill, mean, spread, done };
+  enum class Phase : std::uint8_t { fill, unite, mean, spread, done };
   void fill(Surface& surface, HalfedgeId h) const;
 
   DensityOptions options_;

@@ -1,8 +1,8 @@
 #include "surface/features.h"
 
 #include "base/elementary.h"
-#include "base/sort.h"
 #include "base/status.h"
+#include "surface/tagged_edges.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -35,38 +35,16 @@ void mark_material(Surface& surface, HalfedgeId h) {
   if (material[surface.source_face[face(h)]] != material[surface.source_face[face(t)]]) mark(surface, h, line_tagged);
 }
 
-/// Repair may have made several vertices of one of the caller's: copies[start[v]] to copies[start[v + 1]] are v's.
-struct Copies {
-  Span<std::uint32_t> start;
-  Span<VertexId> copies;
-};
-
-void mark_between(Surface& surface, const Copies& copies, std::uint32_t a, std::uint32_t b) {
-  for (std::uint32_t i = copies.start[a]; i < copies.start[a + 1]; ++i) {
-    for (std::uint32_t j = copies.start[b]; j < copies.start[b + 1]; ++j) {
-      const HalfedgeId forth = find_halfedge(surface.mesh, copies.copies[i], copies.copies[j]);
-      const HalfedgeId back = find_halfedge(surface.mesh, copies.copies[j], copies.copies[i]);
-      if (!forth.is_none()) mark(surface, forth, line_tagged);
-      if (!back.is_none()) mark(surface, back, line_tagged);
-    }
-  }
-}
-
 Status mark_tags(Surface& surface, Arena& arena) {
   const MeshView& view = *surface.view;
   if (view.tagged_edge_count == 0) return {};
   const ScratchScope scope(arena);
-  Copies copies;
-  Span<VertexId> vertices;
-  ISOLOD_TRY(arena.scratch(view.vertex_count + 1, copies.start));
-  ISOLOD_TRY(arena.scratch(surface.source_vertex.count, copies.copies));
-  ISOLOD_TRY(arena.scratch(surface.source_vertex.count, vertices));
-  for (VertexId v : Ids<VertexId>(vertices.count)) vertices[v] = v;
-  counting_sort<VertexId>(vertices, copies.copies, copies.start, [&](VertexId v) { return surface.source_vertex[v]; });
+  TaggedEdges edges;
+  ISOLOD_TRY(edges.begin(surface, arena));
   for (std::size_t e = 0; e < view.tagged_edge_count; ++e) {
     const std::uint32_t a = view.tagged_edges[2 * e], b = view.tagged_edges[2 * e + 1];
     if (a >= view.vertex_count || b >= view.vertex_count) return fail(Status::index_out_of_range, Element::edge, e);
-    mark_between(surface, copies, a, b);
+    edges.visit_between(surface, a, b, [&](HalfedgeId h) { mark(surface, h, line_tagged); });
   }
   return {};
 }
@@ -92,13 +70,13 @@ FeatureStar feature_star(const Surface& surface, VertexId v) {
   return star;
 }
 
+}  // namespace
+
 bool is_corner(const Surface& surface, VertexId v, double corner_angle) {
   const FeatureStar star = feature_star(surface, v);
   if (star.degree != 2) return star.degree != 0;
   return 180 - angle_between(star.away[0], star.away[1]) > corner_angle;
 }
-
-}  // namespace
 
 Status FindFeatures::begin(Surface& surface, const FeatureOptions& options, Arena& arena) {
   options_ = options;

@@ -17,6 +17,9 @@ struct FeatureOptions {
   double corner_angle = 30;  ///< degrees
 };
 
+/// Whether a vertex is a corner of the skeleton, going by `surface.line` as it is. O(valence).
+bool is_corner(const Surface& surface, VertexId v, double corner_angle);
+
 /// A stage: begin, step until done. Fills `surface.line` and `surface.corner`, allocated as results: 1 byte a halfedge,
 /// 1 a vertex. O(n) time; with tagged edges 8 bytes a vertex of scratch.
 class FindFeatures {

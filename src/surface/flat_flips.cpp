@@ -39,18 +39,27 @@ Quad quad_of(const Surface& surface, HalfedgeId h) {
           surface.position(mesh.apex(mesh.twin[h]))};
 }
 
+/// Turns the edge of h, with the values that lie on corners and sides. Afterwards h runs from d to b, prev(h) from c; g
+/// from c to a, prev(g) from d.
 void flip_with_densities(Surface& surface, Triangulation& t, HalfedgeId h) {
-  if (surface.wedge_density.empty()) return flip(t, h);
-  Span<float> density = surface.wedge_density;
   const HalfedgeId g = t.mesh.twin[h];
-  const float at_b = density[next(h)], at_c = density[prev(h)], at_a = density[next(g)], at_d = density[prev(g)];
-  flip(t, h);  // h runs from d to b, prev(h) from c; g from c to a, prev(g) from d
-  density[h] = at_d;
-  density[next(h)] = at_b;
-  density[prev(h)] = at_c;
-  density[g] = at_c;
-  density[next(g)] = at_a;
-  density[prev(g)] = at_d;
+  if (!surface.wedge_density.empty()) {
+    Span<float> density = surface.wedge_density;
+    const float at_b = density[next(h)], at_c = density[prev(h)], at_a = density[next(g)], at_d = density[prev(g)];
+    density[h] = at_d;
+    density[next(h)] = at_b;
+    density[prev(h)] = at_c;
+    density[g] = at_c;
+    density[next(g)] = at_a;
+    density[prev(g)] = at_d;
+  }
+  if (!surface.given_line_density.empty()) {
+    Span<float> density = surface.given_line_density;
+    density[h] = density[prev(g)];
+    density[g] = density[prev(h)];
+    density[prev(h)] = density[prev(g)] = 0;
+  }
+  flip(t, h);
 }
 
 bool wants_flip(const Surface& surface, const Triangulation& t, HalfedgeId h, double tolerance) {

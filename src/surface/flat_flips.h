@@ -16,7 +16,7 @@ inline namespace v1 {
 double flatness_tolerance(const Surface& surface);
 
 /// A stage: begin, step until done. Flips edges of flat regions, sweep after sweep, until all are Delaunay or the
-/// sweeps are over. Wedge densities go with their corners. O(n) time a sweep, no memory.
+/// sweeps are over. Densities go with their corners and sides. O(n) time a sweep, no memory.
 class FlipFlatEdges {
  public:
   void begin(double tolerance, std::uint32_t most_sweeps);

@@ -2,25 +2,15 @@
 //
 // Charts then have an inside, seams can run where they should, and 46 triangles can carry 20,000 samples. Edges are
 // split at their midpoints in rounds, each face by the pattern of its split edges, so that the mesh stays conforming;
-// before each round the needles of flat regions are flipped away. The surface does not change. Lines, wedge densities
-// and the caller's triangle numbers are handed on.
+// before each round the needles of flat regions are flipped away. The surface does not change. Lines, densities and
+// the caller's triangle numbers are handed on.
 #pragma once
 
 #include "surface/flat_flips.h"
+#include "surface/mesh_draft.h"
 
 namespace isolod {
 inline namespace v1 {
-
-/// A mesh under construction.
-struct MeshDraft {
-  Span<VertexId> origin;
-  Span<std::uint8_t> line;
-  Span<float> density;
-  Span<std::uint32_t> source_face;
-  Span<Vec3> midpoint;
-  Span<std::uint8_t> corner;
-  std::uint32_t face_count = 0;
-};
 
 /// A stage: begin, step until done.
 class Refine {
@@ -40,7 +30,6 @@ class Refine {
   void begin_round(Surface& surface);
   void choose(const Surface& surface, HalfedgeId h);
   Status begin_draft(const Surface& surface, Arena& arena);
-  Status take_over(Surface& surface, Arena& arena);
 
   double line_rate_ = 0;
   double limit_ = 0;

@@ -42,12 +42,15 @@ Options options_from(const Arguments& arguments) {
   options.lloyd_iterations =
       static_cast<std::uint32_t>(arguments.count("--lloyd", options.lloyd_iterations, most_count));
   choose(arguments, "--atlas", {"charts", "single"}, options.atlas);
+  choose(arguments, "--cut", {"spine", "loops", "short-loops", "greedy"}, options.cut);
+  if (arguments.has("--no-fall-back")) options.fall_back_to_charts = false;
   choose(arguments, "--fluency", {"auto", "tree", "region", "strip"}, options.fluency);
   choose(arguments, "--calibration", {"corrected", "paper"}, options.calibration);
   choose(arguments, "--weight", {"equal", "paper"}, options.weight);
   choose(arguments, "--centroids", {"fast", "exact"}, options.centroids);
   if (arguments.has("--keep-seams")) options.remove_seams = false;
   if (arguments.has("--no-auto-smooth")) options.smooth_undersampled = false;
+  options.close_boundaries = arguments.has("--close-boundaries");
   options.weld = arguments.has("--weld");
   options.validate = true;
   return options;
@@ -98,8 +101,10 @@ const CommandRule& remesh_rule() {
        {"-o", "OUT", "the file to write, only when all went well"},
        {"--features", "DEG", "edges sharper than this angle are kept; 0, the default: none"},
        {"--corner", "DEG", "a kept line that turns by more than this has a corner there; 30"},
+       {"--feature-edges", "FILE", "edges to keep: two vertices a line, from 0, and where wished the density along it"},
+       {"--close-boundaries", nullptr, "a hole that would get fewer than three samples closes"},
        {"--gamma", "G", "denser where curved: the density is curvature to the power G, 0 to 8"},
-       {"--density", "FILE", "the density from a text file: one number for each vertex"},
+       {"--density", "FILE", "the density from a text file: a number a vertex, or three a triangle"},
        {"--smooth", "N", "low-pass passes over the density; 0"},
        {"--no-auto-smooth", nullptr, "no more passes where few vertices are asked for"},
        {"--lloyd", "N", "iterations of the relaxation; 40"},
@@ -109,6 +114,8 @@ const CommandRule& remesh_rule() {
        {"--memory", "SIZE", "the block to work in, such as 64M; chosen by itself when not given"},
        {"--paper", nullptr, "the paper as printed: the next four at once, 100 iterations, seams kept"},
        {"--atlas", "single|charts", "over what the surface is laid into the plane; charts"},
+       {"--cut", "spine|loops|short-loops|greedy", "how handles are cut for a single chart; spine"},
+       {"--no-fall-back", nullptr, "an error where a single chart folds, instead of charts there"},
        {"--keep-seams", nullptr, "all samples diffused at once, no second relaxation"},
        {"--calibration", "paper|corrected", "how the budget becomes a sampling rate; corrected"},
        {"--weight", "paper|equal", "which density weighs the centroids; equal"},
@@ -126,6 +133,7 @@ int command_remesh(const Arguments& arguments) {
   settings.options = options_from(arguments);
   settings.memory_bytes = arguments.bytes("--memory", 0);
   settings.show_progress = !arguments.has("--quiet") && errors_go_to_terminal();
+  settings.watch_lloyd = arguments.has("--report");
   const isolod::WriteOptions format = write_options(output, arguments.has("--ascii"));
   OutputFile output_file(output);
   const bool pictures = arguments.has("--pictures");
@@ -136,9 +144,8 @@ int command_remesh(const Arguments& arguments) {
 
   catch_interrupts();
   InputMesh mesh = read_mesh_file(input);
-  if (arguments.has("--density")) {
-    mesh.vertex_density = read_density_file(arguments.required_text("--density"), mesh.loaded.vertex_count());
-  }
+  if (arguments.has("--density")) read_density_file(arguments.required_text("--density"), mesh);
+  if (arguments.has("--feature-edges")) read_feature_file(arguments.required_text("--feature-edges"), mesh);
   const isolod::MeshView view = mesh.view();
   const RunOutcome outcome = run_remesh(view, settings);
   if (report != nullptr) {

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
+#include <sstream>
+#include <utility>
 
 #include "isolod/failure.h"
 
@@ -35,6 +37,28 @@ std::vector<unsigned char> read_bytes(const std::string& path) {
   return bytes;
 }
 
+/// Numbers separated by blanks or line ends.
+std::vector<double> read_numbers(const std::string& path) {
+  std::vector<unsigned char> bytes = read_bytes(path);
+  bytes.push_back('\0');
+  const char* at = reinterpret_cast<const char*>(bytes.data());
+  std::uint64_t line = 1;
+  std::vector<double> numbers;
+  for (;;) {
+    for (; *at == ' ' || *at == '\t' || *at == '\r' || *at == '\n'; ++at) line += *at == '\n' ? 1 : 0;
+    if (*at == '\0') return numbers;
+    char* end = nullptr;
+    numbers.push_back(std::strtod(at, &end));
+    if (end == at) fail_status(path, Status(Status::syntax_error, Element::line, line));
+    at = end;
+  }
+}
+
+[[noreturn]] void refuse_count(const std::string& path, std::size_t count, const std::string& wanted) {
+  throw Failure{exit_code(Status::syntax_error),
+                path + ": holds " + std::to_string(count) + " numbers for " + wanted + " [syntax_error]"};
+}
+
 bool write_to_file(void* context, const void* bytes, std::size_t count) {
   return static_cast<OutputFile*>(context)->write(bytes, count);
 }
@@ -44,6 +68,10 @@ bool write_to_file(void* context, const void* bytes, std::size_t count) {
 isolod::MeshView InputMesh::view() const {
   isolod::MeshView view = loaded.view();
   if (!vertex_density.empty()) view.vertex_density = vertex_density.data();
+  if (!corner_density.empty()) view.corner_density = corner_density.data();
+  if (!feature_edges.empty()) view.tagged_edges = feature_edges.data();
+  if (!feature_edges.empty()) view.tagged_edge_count = feature_edges.size() / 2;
+  if (!feature_density.empty()) view.tagged_edge_density = feature_density.data();
   return view;
 }
 
@@ -64,22 +92,51 @@ InputMesh read_mesh_file(const std::string& path) {
 }
 
 std::vector<double> read_density_file(const std::string& path, std::size_t vertex_count) {
-  std::vector<unsigned char> bytes = read_bytes(path);
-  bytes.push_back('\0');
-  const char* at = reinterpret_cast<const char*>(bytes.data());
-  std::uint64_t line = 1;
-  std::vector<double> density;
-  for (;;) {
-    for (; *at == ' ' || *at == '\t' || *at == '\r' || *at == '\n'; ++at) line += *at == '\n' ? 1 : 0;
-    if (*at == '\0') break;
-    char* end = nullptr;
-    density.push_back(std::strtod(at, &end));
-    if (end == at) fail_status(path, Status(Status::syntax_error, Element::line, line));
-    at = end;
-  }
+  std::vector<double> density = read_numbers(path);
   if (density.size() == vertex_count) return density;
-  throw Failure{exit_code(Status::syntax_error), path + ": holds " + std::to_string(density.size()) + " numbers for " +
-                                                     std::to_string(vertex_count) + " vertices [syntax_error]"};
+  refuse_count(path, density.size(), std::to_string(vertex_count) + " vertices");
+}
+
+void read_density_file(const std::string& path, InputMesh& mesh) {
+  std::vector<double> density = read_numbers(path);
+  const std::size_t vertices = mesh.loaded.vertex_count(), triangles = mesh.loaded.triangle_count();
+  if (density.size() == vertices) {
+    mesh.vertex_density = std::move(density);
+  } else if (density.size() == 3 * triangles) {
+    mesh.corner_density = std::move(density);
+  } else {
+    refuse_count(path, density.size(),
+                 std::to_string(vertices) + " vertices and " + std::to_string(triangles) + " triangles");
+  }
+}
+
+void read_feature_file(const std::string& path, InputMesh& mesh) {
+  const std::vector<unsigned char> bytes = read_bytes(path);
+  std::istringstream text(std::string(bytes.begin(), bytes.end()));
+  std::string line;
+  bool any_density = false;
+  for (std::uint64_t number = 1; std::getline(text, line); ++number) {
+    const auto refuse = [&](Status::Code code) { fail_status(path, Status(code, Element::line, number)); };
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::string word[4];
+    std::size_t count = 0;
+    while (count < 4 && words >> word[count]) ++count;
+    if (count == 0) continue;
+    if (count != 2 && count != 3) refuse(Status::syntax_error);
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (word[k].find_first_not_of("0123456789") != std::string::npos) refuse(Status::syntax_error);
+      const unsigned long long vertex = std::strtoull(word[k].c_str(), nullptr, 10);
+      if (vertex >= mesh.loaded.vertex_count()) refuse(Status::index_out_of_range);
+      mesh.feature_edges.push_back(static_cast<std::uint32_t>(vertex));
+    }
+    char* end = nullptr;
+    const double density = count == 3 ? std::strtod(word[2].c_str(), &end) : 0;
+    if (count == 3 && *end != '\0') refuse(Status::syntax_error);
+    if (count == 3 && !(density > 0 && density < 1e300)) refuse(Status::density_not_positive);
+    mesh.feature_density.push_back(density);
+    any_density = any_density || count == 3;
+  }
+  if (!any_density) mesh.feature_density.clear();
 }
 
 isolod::WriteOptions write_options(const std::string& path, bool ascii) {

@@ -16,7 +16,10 @@ namespace tool {
 struct InputMesh {
   std::unique_ptr<unsigned char[]> block;
   isolod::LoadedMesh loaded;
-  std::vector<double> vertex_density;  ///< empty, or one a vertex
+  std::vector<double> vertex_density;        ///< empty, or one a vertex
+  std::vector<double> corner_density;        ///< empty, or three a triangle
+  std::vector<std::uint32_t> feature_edges;  ///< two vertices an edge
+  std::vector<double> feature_density;       ///< empty, or one a feature edge, 0 where the file gives none
 
   isolod::MeshView view() const;
 };
@@ -27,6 +30,13 @@ InputMesh read_mesh_file(const std::string& path);
 
 /// One number a vertex, separated by blanks or line ends. Throws a failure that names the line.
 std::vector<double> read_density_file(const std::string& path, std::size_t vertex_count);
+
+/// The same, or three numbers a triangle where that is another count.
+void read_density_file(const std::string& path, InputMesh& mesh);
+
+/// An edge a line: two vertices, from 0, and where wished the density along it. What is behind a # is a comment. Throws
+/// a failure that names the line.
+void read_feature_file(const std::string& path, InputMesh& mesh);
 
 /// How to write under that name. Throws where no mesh could be written so: before the work, not after it.
 isolod::WriteOptions write_options(const std::string& path, bool ascii);

@@ -12,6 +12,7 @@ using isolod::Report;
 
 std::uint64_t wide(std::size_t value) { return static_cast<std::uint64_t>(value); }
 
+const char* const cuts[] = {"spine", "loops", "short-loops", "greedy"};
 const char* const fluencies[] = {"auto", "tree", "region", "strip"};
 
 void add_options(JsonWriter& json, const Options& options) {
@@ -27,8 +28,10 @@ void add_options(JsonWriter& json, const Options& options) {
   json.add("smooth_undersampled", options.smooth_undersampled);
   json.add("atlas", options.atlas == isolod::AtlasKind::single ? "single" : "charts");
   json.add("fluency", fluencies[static_cast<std::size_t>(options.fluency)]);
+  json.add("cut", cuts[static_cast<std::size_t>(options.cut)]);
   json.add("fall_back_to_charts", options.fall_back_to_charts);
   json.add("remove_seams", options.remove_seams);
+  json.add("close_boundaries", options.close_boundaries);
   json.add("calibration", options.calibration == isolod::Calibration::paper ? "paper" : "corrected");
   json.add("weight", options.weight == isolod::LloydWeight::paper ? "paper" : "equal");
   json.add("centroids", options.centroids == isolod::Centroids::exact ? "exact" : "fast");
@@ -66,6 +69,7 @@ void add_repair(JsonWriter& json, const isolod::RepairReport& repair) {
 void add_counts(JsonWriter& json, const Report& report) {
   json.add("components", std::uint64_t{report.components});
   json.add("boundary_loops", std::uint64_t{report.boundary_loops});
+  json.add("closed_loops", std::uint64_t{report.closed_loops});
   json.add("corners", std::uint64_t{report.corners});
   json.add("backbones", std::uint64_t{report.backbones});
   json.add("charts", std::uint64_t{report.charts});
@@ -77,6 +81,21 @@ void add_counts(JsonWriter& json, const Report& report) {
   json.add("largest_error", report.diffusion.largest_error);
   json.add("teleports", std::uint64_t{report.diffusion.teleports});
   json.add("split_triangles", std::uint64_t{report.diffusion.split_triangles});
+}
+
+/// Shares and energies are those before the iteration's move.
+void add_lloyd(JsonWriter& json, const std::vector<LloydSum>& sums) {
+  json.open_array("lloyd");
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    json.open_object(nullptr);
+    json.add("iteration", wide(i + 1));
+    json.add("sites", sums[i].site_count);
+    json.add("gabriel_share", sums[i].gabriel_share());
+    json.add("energy", sums[i].energy);
+    json.add("greatest_move", sums[i].greatest_move);
+    json.close_object();
+  }
+  json.close_array();
 }
 
 }  // namespace
@@ -104,6 +123,7 @@ std::string report_json(const RunNames& names, const isolod::MeshView& view, con
   add_repair(json, outcome.report.repair);
   add_counts(json, outcome.report);
   add_stages(json, outcome.report);
+  add_lloyd(json, outcome.lloyd);
   return json.finish();
 }
 

@@ -1,5 +1,6 @@
 #include "isolod/run.h"
 
+#include <algorithm>
 #include <memory>
 #include <new>
 
@@ -30,12 +31,29 @@ bool take_triangles(void* context, const std::uint32_t* corners, std::size_t cou
   return true;
 }
 
+/// What the hooks work on.
+struct Watcher {
+  ProgressLine line;
+  std::vector<LloydSum>& lloyd;
+};
+
 bool show_progress(void* context, const char* stage, double share) {
-  static_cast<ProgressLine*>(context)->update(stage, share);
+  static_cast<Watcher*>(context)->line.update(stage, share);
   return !interrupted();
 }
 
 double clock_of_run(void*) { return now_seconds(); }
+
+void add_lloyd(void* context, const isolod::LloydReport& report) {
+  std::vector<LloydSum>& sums = static_cast<Watcher*>(context)->lloyd;
+  if (report.chart == 0 && report.iteration == 0) sums.clear();  // the run began, or began again
+  if (sums.size() <= report.iteration) sums.resize(report.iteration + 1);
+  LloydSum& sum = sums[report.iteration];
+  sum.site_count += report.site_count;
+  sum.gabriel_count += report.gabriel_count;
+  sum.energy += report.energy;
+  sum.greatest_move = std::max(sum.greatest_move, report.greatest_move);
+}
 
 /// One attempt in a block of that many bytes. The block is not cleared: pages that are never written cost nothing.
 void attempt(const isolod::MeshView& view, const RunSettings& settings, std::size_t bytes, RunOutcome& outcome) {
@@ -47,11 +65,12 @@ void attempt(const isolod::MeshView& view, const RunSettings& settings, std::siz
     return;
   }
   isolod::Arena arena(block.get(), bytes);
-  ProgressLine line(settings.show_progress);
+  Watcher watcher{ProgressLine(settings.show_progress), outcome.lloyd};
   isolod::Hooks hooks;
-  hooks.context = &line;
+  hooks.context = &watcher;
   hooks.progress = show_progress;
   hooks.clock = clock_of_run;
+  if (settings.watch_lloyd) hooks.lloyd = add_lloyd;
   isolod::MeshSink sink;
   sink.context = &outcome.mesh;
   sink.begin = take_begin;

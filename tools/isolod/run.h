@@ -19,16 +19,29 @@ struct TriangleMesh {
   isolod::MeshView view() const;
 };
 
+/// An iteration of Lloyd's relaxation, over all charts.
+struct LloydSum {
+  std::uint64_t site_count = 0, gabriel_count = 0;
+  double energy = 0;
+  double greatest_move = 0;  ///< of any chart
+
+  double gabriel_share() const {
+    return site_count == 0 ? 0 : static_cast<double>(gabriel_count) / static_cast<double>(site_count);
+  }
+};
+
 struct RunSettings {
   isolod::Options options;
   std::size_t memory_bytes = 0;  ///< 0: what `required_memory` says, and once more with what the status asks for
   bool show_progress = false;
+  bool watch_lloyd = false;  ///< fill `RunOutcome::lloyd`, which takes time
 };
 
 struct RunOutcome {
   isolod::Status status;
   isolod::Report report;
   TriangleMesh mesh;
+  std::vector<LloydSum> lloyd;  ///< by iteration
   std::size_t block_bytes = 0;  ///< of the last block
   double seconds = 0;           ///< of the last attempt
 };

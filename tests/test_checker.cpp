@@ -580,6 +580,51 @@ TEST_CASE("checker: realised density against the one of a conformal map") {
   CHECK(fit(0).mass_variation > 0.2);
 }
 
+/// A tube of square section, open at both ends, 16 columns to a side and 40 rows of squares. The rows of the first and
+/// the last two are `lower` times as high; the columns beside the four edges, two on each side, `narrower` as wide.
+shapes::Shape square_tube(double lower, double narrower) {
+  constexpr std::uint32_t side = 16, around = 4 * side, rows = 40;
+  const auto is_outer = [](std::uint32_t i, std::uint32_t count) { return i < 2 || i >= count - 2; };
+  std::vector<double> along = {0};
+  for (std::uint32_t i = 0; i < side; ++i) along.push_back(along.back() + (is_outer(i, side) ? narrower : 1));
+  const double width = along.back();
+  shapes::Shape tube;
+  double z = 0;
+  for (std::uint32_t row = 0; row <= rows; ++row) {
+    for (std::uint32_t k = 0; k < around; ++k) {
+      const double a = along[k % side], b = width;
+      const double xy[4][2] = {{a, 0}, {b, a}, {b - a, b}, {0, b - a}};
+      tube.positions.insert(tube.positions.end(), {xy[k / side][0], xy[k / side][1], z});
+      if (row == rows) continue;
+      const std::uint32_t p = row * around + k, q = row * around + (k + 1) % around;
+      tube.triangles.insert(tube.triangles.end(), {p, q, q + around, p, q + around, p + around});
+    }
+    z += is_outer(row, rows) ? lower : 1;
+  }
+  return tube;
+}
+
+TEST_CASE("checker: density beside lines of a tube, whose ends and edges are lines") {
+  measure::FeatureOptions with_edges, ends_alone;
+  ends_alone.sharp_degrees = 100;
+  const auto beside = [](const shapes::Shape& shape, const measure::FeatureOptions& options, int rings = 2) {
+    return measure::density_beside_lines(surface_of(shape), options, rings);
+  };
+  CHECK(beside(square_tube(1, 1), with_edges) == doctest::Approx(1));
+  CHECK(beside(square_tube(1, 1), ends_alone) == doctest::Approx(1));
+  // At an end lie half a row, a row, and half of each of the next two: the shares 1/2, 1, 1 on 2 * lower + 1/2 rows.
+  CHECK(beside(square_tube(0.5, 1), ends_alone) == doctest::Approx(2.5 / 1.5));
+  CHECK(beside(square_tube(2, 1), ends_alone) == doctest::Approx(2.5 / 4.5));
+  CHECK(beside(square_tube(0.5, 1), ends_alone, 1) == doctest::Approx((1.5 / 0.75) / (37 / 36.5)));
+  // The edges' columns alone, where rings are counted from them; with both, all that lies elsewhere has a share of 1.
+  CHECK(beside(square_tube(1, 0.5), with_edges) > 1.3);
+  CHECK(beside(square_tube(1, 0.5), ends_alone) == doctest::Approx(1));
+  CHECK(beside(square_tube(1, 2), with_edges) < 0.8);
+  // No lines, or nothing but lines.
+  CHECK(beside(made("sphere", 2000), with_edges) == 0);
+  CHECK(beside(square_tube(1, 1), with_edges, 20) == 0);
+}
+
 TEST_CASE("checker: rank correlation of known data") {
   CHECK(measure::spearman({1, 2, 3, 4}, {10, 20, 30, 1000}) == doctest::Approx(1));
   CHECK(measure::spearman({1, 2, 3, 4}, {4, 3, 2, 1}) == doctest::Approx(-1));

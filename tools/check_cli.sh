@@ -145,6 +145,26 @@ runs "pictures" 0 "$isolod" remesh bracket.off --vertices 1500 --features 40 --p
 holds "pictures are drawn" test -s drawn/here/1_original.svg -a -s drawn/here/5_result.svg
 awk 'NR > 2 && NR <= 2 + n { print 1 + $1 * $1 } NR == 2 { n = $1 }' torus.off >density.txt
 runs "given density" 0 "$isolod" remesh torus.off --vertices 700 --density density.txt -o result.off
+
+# chosen WORDS KEY VALUE: these options give a result, and the report says what they chose.
+chosen() {
+  # shellcheck disable=SC2086  # a list of words
+  runs "$1" 0 "$isolod" remesh torus.off --vertices 700 --features 40 $1 --report run.json -o result.off
+  holds "the report of $1" grep -Eq "\"$2\": \"?$3\"?,?\$" run.json
+}
+chosen "--paper" calibration paper
+chosen "--paper --fluency tree" fluency tree
+chosen "--atlas single" atlas single
+chosen "--atlas single --no-fall-back" fall_back_to_charts false
+for cut in spine loops short-loops greedy; do chosen "--atlas single --cut $cut" fallen_back 0; done
+chosen "--fluency strip" fluency strip
+refuses "--fluency region" 27 "torus.off: " "$isolod" remesh torus.off --vertices 700 --fluency region -o x.off
+chosen "--calibration paper" calibration paper
+chosen "--weight paper" weight paper
+chosen "--centroids exact" centroids exact
+chosen "--keep-seams --lloyd 3" remove_seams false
+chosen "--no-auto-smooth --corner 20" smooth_undersampled false
+
 echo 1 >density.txt
 refuses "density of another mesh" 23 "density.txt: " "$isolod" remesh torus.off --vertices 700 --density density.txt -o x.off
 printf '1\nthree\n' >words.txt

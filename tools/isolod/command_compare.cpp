@@ -16,6 +16,7 @@ struct Comparison {
   MeshFacts original, result;
   measure::Distances distances;
   measure::LineReport lines;
+  double density_on_lines = 0, density_beside_lines = 0;
   measure::Crossings original_crossings, result_crossings;
   measure::CrossingKinds kinds;
   bool has_density = false;
@@ -35,6 +36,8 @@ Comparison compare(const InputMesh& original, const InputMesh& result, const Arg
   comparison.result = facts_of(result);
   comparison.distances = measure::distances(a, b, sampling);
   comparison.lines = measure::line_report(a, b, sharp);
+  comparison.density_on_lines = measure::density_beside_lines(b, sharp, 0);
+  comparison.density_beside_lines = measure::density_beside_lines(b, sharp);
   comparison.original_crossings = measure::crossings(a);
   comparison.result_crossings = measure::crossings(b);
   comparison.kinds = measure::crossing_kinds(a, b, comparison.result_crossings);
@@ -115,6 +118,8 @@ void print_json(const Arguments& arguments, const Comparison& comparison) {
   json.add("flipped_triangles", static_cast<std::uint64_t>(distances.flipped));
   json.add("flipped_triangles_robust", static_cast<std::uint64_t>(distances.flipped_robust));
   add_lines(json, comparison.lines);
+  json.add("density_on_lines", comparison.density_on_lines);
+  json.add("density_beside_lines", comparison.density_beside_lines);
   add_crossings(json, comparison, arguments.has("--crossings"));
   if (comparison.has_density) {
     json.add("density_spearman", comparison.density.spearman);
@@ -167,6 +172,8 @@ void print_fit(const Comparison& comparison) {
   std::printf("boundary lines        %14.3g\n", lines.boundary_to_boundary.max);
   std::printf("straight lines        %14.3g\n", lines.straight_to_edge);
   std::printf("corners missing       %14zu of %zu\n", lines.corners_missing, lines.corners);
+  std::printf("density beside lines  %14.4f, %.4f on them\n", comparison.density_beside_lines,
+              comparison.density_on_lines);
   std::printf("flipped triangles     %14zu, %zu of them for certain\n", distances.flipped, distances.flipped_robust);
   if (comparison.has_density) {
     std::printf("density, rank order   %14.4f\n", comparison.density.spearman);

@@ -188,6 +188,11 @@ struct DensityFit {
 /// Realised is share over Voronoi area, where the share is the vertex's total angle over 2 pi.
 DensityFit density_fit(const Surface& original, const std::vector<double>& wished, const Surface& result);
 
+/// Where a uniform density was wished for: the density within so many rings of edges around the result's sharp and
+/// boundary lines, over the density elsewhere. Density is the sum of the shares over the sum of the Voronoi areas. 0
+/// where there are no lines, or nothing lies beside them or elsewhere.
+double density_beside_lines(const Surface& result, const FeatureOptions& options = {}, int rings = 2);
+
 /// Spearman's rank correlation; equal values share their mean rank.
 double spearman(const std::vector<double>& a, const std::vector<double>& b);
 

@@ -1,4 +1,5 @@
-// Whether the vertices lie as densely as was wished: ranks, the slope of the logarithms, and the cells' masses.
+// Whether the vertices lie as densely as was wished: ranks, the slope of the logarithms, the cells' masses, and whether
+// lines make a difference.
 #include <algorithm>
 #include <numeric>
 
@@ -47,6 +48,20 @@ Cells measure_cells(const Surface& s, const std::vector<double>& density) {
     }
   }
   return cells;
+}
+
+/// 1 for each vertex that so many edges or fewer lead to from a line.
+std::vector<char> beside_lines(const Surface& s, const FeatureOptions& options, int rings) {
+  std::vector<char> beside(s.vertex_count, 0);
+  for (const FeatureLines::Edge& e : feature_lines(s, options).edges) beside[e.a] = beside[e.b] = 1;
+  const EdgeTable table(s);
+  for (int ring = 0; ring < rings; ++ring) {
+    const std::vector<char> inside = beside;
+    for (const Edge& e : table.edges) {
+      if (inside[e.a] != 0 || inside[e.b] != 0) beside[e.a] = beside[e.b] = 1;
+    }
+  }
+  return beside;
 }
 
 double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
@@ -111,6 +126,19 @@ DensityFit density_fit(const Surface& original, const std::vector<double>& wishe
   fit.mass_variation = spread(inner_mass).variation;
   fit.mass_variation_all = spread(mass).variation;
   return fit;
+}
+
+double density_beside_lines(const Surface& result, const FeatureOptions& options, int rings) {
+  const std::vector<char> beside = beside_lines(result, options, rings);
+  const Cells cells = measure_cells(result, std::vector<double>(result.vertex_count, 1.0));
+  std::array<double, 2> share{}, area{};
+  for (std::size_t v = 0; v < result.vertex_count; ++v) {
+    const std::size_t side = beside[v] != 0 ? 1 : 0;
+    share[side] += cells.share[v];
+    area[side] += cells.area[v];
+  }
+  if (!(area[0] > 0) || !(area[1] > 0)) return 0;
+  return share[1] / area[1] / (share[0] / area[0]);
 }
 
 }  // namespace measure

@@ -50,12 +50,14 @@ run_script() {
 }
 
 test_build() {
-  if ! build_preset "$1" isolod_tests isolod_cli; then
+  if ! build_preset "$1" isolod_tests isolod_cli isolod_figures; then
     failed=$((failed + 1))
     return
   fi
   run_unit_tests "$1"
   run_script "$1-cli" sh tools/check_cli.sh "build/$1/tools/isolod/isolod"
+  run_script "$1-figures" sh tools/check_figures.sh "build/$1/tools/isolod/isolod" \
+    "build/$1/tools/figures/isolod_figures"
 }
 
 want_build_tools

@@ -139,6 +139,7 @@ class Storyteller {
       if (is_border && corners.blind[here] == h) continue;
       if (cut(edge, plane, corners.blind[here]) && cut(edge, plane, corners.blind[there])) {
         moment.voronoi.push_back(edge);
+        moment.voronoi_spacing.push_back(distance(plane.point[mesh.origin[h]], plane.point[mesh.target(h)]));
       }
     }
   }

@@ -42,6 +42,7 @@ struct ChartMoment {
   std::uint32_t iterations = 0;
   PlaneDrawing drawing;                      ///< triangulation of the samples; vertices are `ChartStory::site`
   std::vector<std::array<Vec2, 2>> voronoi;  ///< edges of the bounded diagram
+  std::vector<double> voronoi_spacing;       ///< of the two samples beside each edge
   std::vector<CellDrawing> cell;
   std::vector<std::uint32_t> lifted;  ///< numbers among the surface samples, and where those lie then
   std::vector<isolod::SurfacePlace> place;

@@ -15,11 +15,58 @@ Camera direction_for(const Model& model, const PictureSettings& settings) {
   return settings.direction_given ? camera_from({t[0], t[1], t[2]}, {u[0], u[1], u[2]}) : choose_camera(model);
 }
 
+namespace {
+
+/// The axis, or its opposite, that is nearest to `up`.
+Vec3 upright(Vec3 up) {
+  Vec3 best{0, 1, 0};
+  for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}}) {
+    if (dot(axis, up) > dot(best, up)) best = axis;
+  }
+  return best;
+}
+
+}  // namespace
+
+Camera direction_that_shows(const Model& model, const Camera& direction, Vec3 p) {
+  constexpr double size = 300;
+  constexpr int turns = 12;
+  Vec3 normal{0, 0, 0};
+  for (std::size_t f = 0; f < model.face.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (distance(model.corner(f, k), p) == 0) normal = normal + model.area_vector(f);
+    }
+  }
+  const auto shows = [&](Camera camera) {
+    if (dot(normal, camera.toward) < 0.3 * length(normal)) return false;
+    fit(camera, model, size, size);
+    return View(model, camera, size, size).shows(p);
+  };
+  if (shows(direction)) return direction;
+  const Vec3 axis = upright(direction.up);
+  const Vec3 across = direction.right, ahead = cross(across, axis);
+  for (const double rise : {0.6, 1.2, 2.5, 0.2, -0.4}) {
+    for (int turn = 0; turn < turns; ++turn) {
+      const double angle = turn * 6.283185307179586 / turns;
+      const Vec3 level = std::cos(angle) * ahead + std::sin(angle) * across;
+      const Camera camera = camera_from(level + rise * axis, axis);
+      if (shows(camera)) return camera;
+    }
+  }
+  return direction;
+}
+
 Status remeshed(const FigureTask& task, const isolod::Options& options, Model& result) {
   StagedRun run(task.view, options, task.settings.block_bytes);
   ISOLOD_TRY(run.finish());
   result = model_of(run.state()->positions, run.state()->triangles);
   return {};
+}
+
+std::string way_text(const isolod::Options& options) {
+  const bool is_papers = options.atlas == isolod::AtlasKind::single && !options.remove_seams &&
+                         options.calibration == isolod::Calibration::paper;
+  return is_papers ? "the paper's way" : "the default way";
 }
 
 SurfacePanel::SurfacePanel(Sheet& sheet, const std::string& title, const Model& model, Camera direction, Vec2 most_size)
@@ -93,15 +140,58 @@ Vec3 densest_place(const View& view, Vec2 size) {
   return 1 / static_cast<double>(std::max<std::size_t>(most.size(), 1)) * sum;
 }
 
-Vec3 facing_place(const View& view, Vec2 size) {
-  const Model& model = view.model();
+namespace {
+
+/// A grid over a panel: how much of what is in sight there is turned to the eye. What is turned away counts against it.
+class FacingGrid {
+ public:
+  FacingGrid(const View& view, Vec2 size) : view_(view), size_(size), worth_(bins * bins, 0.0) {
+    constexpr double steep = 0.8;  // cosine
+    for (std::size_t f = 0; f < view.model().face.size(); ++f) {
+      if (view.rank(f) == View::hidden) continue;
+      const Vec3 normal = view.model().area_vector(f);
+      const double facing = std::fabs(dot(normal, view.camera().toward)), area = length(normal);
+      const Vec2 p = view.place(view.model().middle(f));
+      worth_[bin(p.y / size.y) * bins + bin(p.x / size.x)] +=
+          facing > steep * area ? facing - 0.9 * steep * area : -4 * (area - facing);
+    }
+  }
+
+  /// The sum around a point, as far as a closer look of that zoom reaches.
+  double around(Vec3 point, double zoom) const {
+    const std::size_t reach = std::max<std::size_t>(1, static_cast<std::size_t>(0.5 * bins / zoom));
+    const Vec2 p = view_.place(point);
+    const std::size_t x = bin(p.x / size_.x), y = bin(p.y / size_.y);
+    double sum = 0;
+    for (std::size_t row = y - std::min(y, reach); row <= std::min(bins - 1, y + reach); ++row) {
+      for (std::size_t column = x - std::min(x, reach); column <= std::min(bins - 1, x + reach); ++column) {
+        sum += worth_[row * bins + column];
+      }
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t bins = 48;
+  static std::size_t bin(double part) {
+    return static_cast<std::size_t>(std::clamp(part * bins, 0.0, static_cast<double>(bins) - 1));
+  }
+
+  const View& view_;
+  Vec2 size_;
+  std::vector<double> worth_;
+};
+
+}  // namespace
+
+Vec3 facing_place(const View& view, Vec2 size, double zoom) {
+  const FacingGrid grid(view, size);
   Vec3 best = nearest_place(view);
-  double least = 1e300;
-  for (std::size_t f = 0; f < model.face.size(); ++f) {
-    const Vec3 normal = model.area_vector(f);
-    if (view.rank(f) == View::hidden || dot(normal, view.camera().toward) < 0.75 * length(normal)) continue;
-    const double away = distance(view.place(model.middle(f)), 0.5 * size);
-    if (away < least) least = away, best = model.middle(f);
+  double most = -1e300;
+  for (std::size_t f = 0; f < view.model().face.size(); ++f) {
+    if (view.rank(f) == View::hidden) continue;
+    const double sum = grid.around(view.model().middle(f), zoom);
+    if (sum > most) most = sum, best = view.model().middle(f);
   }
   return best;
 }
@@ -133,18 +223,35 @@ Status ChartRun::relax(std::uint32_t iterations, std::vector<isolod::SurfacePlac
 
 std::string ChartRun::map_title() const {
   const std::size_t charts = state().atlas.chart_count();
-  if (charts == 1) return "The map";
-  return "The map of one chart of " + std::to_string(charts);
+  const std::string stretch = stretch_text(state().surface, story);
+  return (charts == 1 ? "The map" : "The map of one chart of " + std::to_string(charts)) +
+         (stretch.empty() ? "" : ": " + stretch);
 }
+
+std::vector<PlaneFrame> ChartRun::frames(Vec2 most_size, std::size_t most_insets, double rim) const {
+  return inset_frames(frame_of(story.map.point, most_size.x, most_size.y, rim), packed_places(state().surface, story),
+                      most_insets);
+}
+
+namespace {
+
+void draw_cells(PlanePanel& panel, const ChartStory& story, const ChartMoment& moment) {
+  panel.ground(moment.drawing, rgb(0xf7f8fa));
+  panel.voronoi(moment);
+  panel.lines(moment.drawing, 1.2);
+  panel.sites(story, moment.drawing);
+}
+
+}  // namespace
 
 void draw_cells(Sheet& sheet, const std::string& title, const PlaneFrame& frame, const ChartStory& story,
                 const ChartMoment& moment) {
-  sheet.panel(title, frame.width, frame.height);
-  PlanePanel panel(sheet.svg(), frame, {0, 0});
-  panel.ground(moment.drawing, rgb(0xf7f8fa));
-  panel.segments(moment.voronoi, palette::voronoi, std::clamp(0.25 * panel.spot_size(moment.drawing), 0.25, 0.9));
-  panel.lines(moment.drawing, 1.2);
-  panel.sites(story, moment.drawing);
+  draw_cells(sheet, title, std::vector<PlaneFrame>{frame}, story, moment);
+}
+
+void draw_cells(Sheet& sheet, const std::string& title, const std::vector<PlaneFrame>& frames, const ChartStory& story,
+                const ChartMoment& moment) {
+  add_insets(sheet, title, frames, [&](PlanePanel& panel) { draw_cells(panel, story, moment); });
 }
 
 void draw_samples_on(SurfacePanel& panel, const isolod::SampledSurface& samples,

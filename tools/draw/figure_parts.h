@@ -4,6 +4,7 @@
 #include <string>
 
 #include "draw/figures.h"
+#include "draw/map_insets.h"
 #include "draw/page.h"
 #include "draw/plane_panel.h"
 #include "draw/sample_spots.h"
@@ -14,6 +15,9 @@ namespace draw {
 
 /// The camera's direction, given or chosen; not yet fitted.
 Camera direction_for(const Model& model, const PictureSettings& settings);
+
+/// The direction, or another one a little from above from which the vertex at `p` can be seen.
+Camera direction_that_shows(const Model& model, const Camera& direction, Vec3 p);
 
 /// The mesh that a run ends with.
 isolod::Status remeshed(const FigureTask& task, const isolod::Options& options, Model& result);
@@ -50,10 +54,13 @@ class SurfacePanel {
   std::unique_ptr<View> view_;
 };
 
+/// Which way a run goes, for titles: "the paper's way" or "the default way".
+std::string way_text(const isolod::Options& options);
+
 /// Where the most vertices of the model are in sight within a small part of the panel.
 Vec3 densest_place(const View& view, Vec2 size);
-/// A face in sight that is turned to the eye, near the middle of the panel.
-Vec3 facing_place(const View& view, Vec2 size);
+/// A face in sight in the middle of what is turned to the eye most, as wide as a closer look of that zoom shows.
+Vec3 facing_place(const View& view, Vec2 size, double zoom);
 /// The point of the surface that is nearest to the eye.
 Vec3 nearest_place(const View& view);
 
@@ -68,8 +75,10 @@ struct ChartRun {
   isolod::Status relax(std::uint32_t iterations, std::vector<isolod::SurfacePlace>& places);
 
   const isolod::Remesher::State& state() const { return *run.state(); }
-  /// "The map", or "The map of chart 3 of 12".
+  /// "The map", or "The map of one chart of 12", and how much its stretch varies.
   std::string map_title() const;
+  /// The map within that size, and closer looks where it packs its surface.
+  std::vector<PlaneFrame> frames(Vec2 most_size, std::size_t most_insets, double rim = 4) const;
 
   StagedRun run;
   isolod::Options options;
@@ -79,6 +88,9 @@ struct ChartRun {
 
 /// The chart's cells and samples at one moment, in a panel as large as the frame.
 void draw_cells(Sheet& sheet, const std::string& title, const PlaneFrame& frame, const ChartStory& story,
+                const ChartMoment& moment);
+/// The same in panels for all frames, closer looks marked.
+void draw_cells(Sheet& sheet, const std::string& title, const std::vector<PlaneFrame>& frames, const ChartStory& story,
                 const ChartMoment& moment);
 
 /// The original with its samples at those places.

@@ -65,7 +65,8 @@ Status draw_figure_1(const FigureTask& task) {
     const std::string what = run == &uniform_run ? "Uniform, " : "Adapted to curvature, ";
     SurfacePanel(sheet, what + vertices_text(result), result, camera, {sheet.share(2), 620}).draw_mesh();
   }
-  return written(sheet.write(task.file, "Figure 1: uniform and curvature-adapted", FeatureLines::legend(surface)));
+  return written(sheet.write(task.file, "Figure 1: uniform and curvature-adapted, " + way_text(task.options),
+                             FeatureLines::legend(surface)));
 }
 
 /// Figure 3: feature skeletons, their backbones open or closed.
@@ -112,7 +113,7 @@ Status draw_figure_14(const FigureTask& task) {
   whole.draw_mesh();
   const Vec3 target = closeup_target(task, nearest_place(whole.view()));
   SurfacePanel(sheet, "Closer", whole, target, 5, {0.34 * sheet.share(1), whole.size().y}).draw_mesh();
-  return written(sheet.write(task.file, "Figure 14: uniform remeshing", {}));
+  return written(sheet.write(task.file, "Figure 14: uniform remeshing, " + way_text(task.options), {}));
 }
 
 struct Variant {
@@ -151,7 +152,8 @@ Status draw_figure_15(const FigureTask& task) {
     variants.back().options.gamma = gamma;
   }
   return draw_variants(task, variants, 4,
-                       "Figure 15: adapted to curvature, " + grouped(task.options.vertex_count) + " vertices each");
+                       "Figure 15: adapted to curvature, " + grouped(task.options.vertex_count) + " vertices each, " +
+                           way_text(task.options));
 }
 
 /// Figure 19: the density smoothed more and more.
@@ -164,7 +166,7 @@ Status draw_figure_19(const FigureTask& task) {
   }
   return draw_variants(task, variants, 4,
                        "Figure 19: low-pass over the density, γ = " + short_number(task.options.gamma) + ", " +
-                           grouped(task.options.vertex_count) + " vertices each");
+                           grouped(task.options.vertex_count) + " vertices each, " + way_text(task.options));
 }
 
 /// Corners of the features that are in sight, the nearest to the middle of the panel and one farther from it.
@@ -213,8 +215,8 @@ Status draw_figure_16(const FigureTask& task) {
   SurfacePanel(sheet, "At a corner", whole, closeup_target(task, corners[0]), 5, {size, whole.size().y}).draw_mesh();
   SurfacePanel(sheet, "At another", whole, corners[1], 5, {sheet.share(2), 300}).draw_mesh();
   SurfacePanel(sheet, "Beside the features", whole, nearest_place(whole.view()), 5, {sheet.share(2), 300}).draw_mesh();
-  return written(
-      sheet.write(task.file, "Figure 16: uniform remeshing with features", SampleSpots::legend(run.state().sampled())));
+  return written(sheet.write(task.file, "Figure 16: uniform remeshing with features, " + way_text(task.options),
+                             SampleSpots::legend(run.state().sampled())));
 }
 
 }  // namespace

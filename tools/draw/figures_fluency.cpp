@@ -69,6 +69,7 @@ constexpr Kind kinds[] = {{"Spanning tree", draw_tree}, {"Region growing", draw_
 }  // namespace
 
 Status draw_figure_5(const FigureTask& task) {
+  constexpr double zoom = 6;
   StagedRun run(task.view, task.options, task.settings.block_bytes);
   ISOLOD_TRY(run.finish("features"));
   const Surface& surface = run.state()->surface;
@@ -92,9 +93,9 @@ Status draw_figure_5(const FigureTask& task) {
   if (whole.empty()) return Status::not_admitted;
   sheet.end_row();
   const Vec3 target = task.closeup_given ? Vec3{task.closeup[0], task.closeup[1], task.closeup[2]}
-                                         : facing_place(whole[0]->view(), whole[0]->size());
+                                         : facing_place(whole[0]->view(), whole[0]->size(), zoom);
   for (std::size_t i = 0; i < whole.size(); ++i) {
-    SurfacePanel close(sheet, "", *whole[i], target, 6, {sheet.share(3), 400});
+    SurfacePanel close(sheet, "", *whole[i], target, zoom, {sheet.share(3), 400});
     draw_faces(close.svg(), close.view(), class_look(close.view(), drawings[i], faces));
     draw_arrows(close.svg(), close.view(), drawings[i], surface, 1);
   }

@@ -22,13 +22,9 @@ void draw_map(PlanePanel& panel, const PlaneDrawing& map, double edge_width) {
   panel.lines(map, 1.2);
 }
 
-/// The map of the original mesh as a panel.
-PlaneFrame add_map(Sheet& sheet, const ChartRun& run, Vec2 most_size) {
-  const PlaneFrame frame = frame_of(run.story.map.point, most_size.x, most_size.y, 4);
-  sheet.panel(run.map_title(), frame.width, frame.height);
-  PlanePanel panel(sheet.svg(), frame, {0, 0});
-  draw_map(panel, run.story.map, 0.4);
-  return frame;
+/// The map of the original mesh as a panel, and closer looks at it.
+void add_map(Sheet& sheet, const ChartRun& run, const std::vector<PlaneFrame>& frames) {
+  add_insets(sheet, run.map_title(), frames, [&](PlanePanel& panel) { draw_map(panel, run.story.map, 0.4); });
 }
 
 Vec2 centroid_of(const std::vector<Vec2>& polygon) {
@@ -45,6 +41,14 @@ Vec2 centroid_of(const std::vector<Vec2>& polygon) {
 std::array<Vec2, 3> triangle_of(const PlaneDrawing& drawing, std::size_t f) {
   const std::array<std::uint32_t, 3>& face = drawing.face[f];
   return {drawing.point[face[0]], drawing.point[face[1]], drawing.point[face[2]]};
+}
+
+double area_of(const std::vector<Vec2>& polygon) {
+  double twice = 0;
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    twice += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  }
+  return 0.5 * twice;
 }
 
 double reach_of(const CellDrawing& cell, Vec2 site) {
@@ -74,12 +78,44 @@ const CellDrawing& cell_near(const ChartMoment& moment, Vec2 p, bool (*is_wanted
   return *best;
 }
 
-/// The sample whose cell the constraints cut most, so that a closer look has something to show.
+/// The sample around which constraints cut the most cells, and most of them.
 Vec2 place_at_constraint(const ChartMoment& moment) {
-  const auto most =
-      std::max_element(moment.cell.begin(), moment.cell.end(),
-                       [](const CellDrawing& a, const CellDrawing& b) { return a.lost_area() < b.lost_area(); });
-  return moment.cell.empty() ? middle_of(moment.drawing) : moment.drawing.point[most->site];
+  struct Cut {
+    Vec2 place;
+    double loss, reach;
+  };
+  std::vector<Cut> cuts;
+  for (const CellDrawing& cell : moment.cell) {
+    const Vec2 site = moment.drawing.point[cell.site];
+    const double area = std::fabs(area_of(cell.bounded));
+    if (cell.is_cut()) cuts.push_back({site, std::min(1.0, 10 * cell.lost_area() / area), 4 * std::sqrt(area)});
+  }
+  Vec2 best = middle_of(moment.drawing);
+  double most = 0;
+  for (const Cut& at : cuts) {
+    double sum = 0;
+    for (const Cut& cut : cuts) sum += distance(cut.place, at.place) < at.reach ? cut.loss : 0;
+    if (sum > most) most = sum, best = at.place;
+  }
+  return best;
+}
+
+/// A corner where the most lines meet, those inside before the border's, the nearest to the middle.
+Vec2 place_at_lines(const PlaneDrawing& drawing) {
+  std::vector<int> sides(drawing.point.size(), 0);  // inner lines count twice: a side in two faces
+  for (std::size_t f = 0; f < drawing.face.size(); ++f) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (drawing.edge[f][k] == EdgeKind::inner) continue;
+      ++sides[drawing.face[f][k]], ++sides[drawing.face[f][(k + 1) % 3]];
+    }
+  }
+  const Vec2 middle = middle_of(drawing);
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    const bool is_nearer = distance(drawing.point[i], middle) < distance(drawing.point[best], middle);
+    if (sides[i] > sides[best] || (sides[i] == sides[best] && is_nearer)) best = i;
+  }
+  return sides[best] > 0 ? drawing.point[best] : middle;
 }
 
 bool is_whole(const CellDrawing& cell) { return !cell.is_cut(); }
@@ -121,17 +157,20 @@ Status draw_figure_8(const FigureTask& task) {
     for (std::size_t f = 0; f < part.map.face.size(); ++f) uv[part.map_face[f].value] = triangle_of(part.map, f);
   }
   Sheet sheet;
-  add_map(sheet, run, {sheet.share(3), 640});
+  add_map(sheet, run, run.frames({sheet.share(2), 560}, 1));
   const double pitch = pitch_for(model, uv, bounds_of(model).diagonal() / 40);
+  sheet.end_row();
   for (const Pattern pattern : {Pattern::checker, Pattern::circles}) {
     SurfacePanel panel(sheet, pattern == Pattern::checker ? "Right angles stay right" : "Circles stay circles", model,
-                       camera, {sheet.share(3), 640});
+                       camera, {sheet.share(2), 700});
     draw_texture(panel.svg(), panel.view(), uv, pattern, pitch);
     draw_outline(panel.svg(), panel.view());
-    seam_lines(panel.view(), surface).draw(panel.svg(), palette::seam, 0.8);
+    FeatureLines(panel.view(), surface).draw(panel.svg(), 1.4);
+    seam_lines(panel.view(), surface).draw(panel.svg(), palette::seam, 1.4);
   }
-  return written(
-      sheet.write(task.file, "Figure 8: two textures by the conformal map", {{Mark::line, palette::seam, "seam"}}));
+  std::vector<LegendItem> legend = {{Mark::line, palette::boundary, "boundary"}};
+  if (has_seams(surface)) legend.push_back({Mark::line, palette::seam, "seam"});
+  return written(sheet.write(task.file, "Figure 8: two textures by the conformal map", legend));
 }
 
 Status draw_figure_9(const FigureTask& task) {
@@ -139,17 +178,21 @@ Status draw_figure_9(const FigureTask& task) {
   ISOLOD_TRY(run.tell({0}, true));
   const ChartMoment& moment = run.story.moment[0];
   Sheet sheet;
-  const PlaneFrame frame = add_map(sheet, run, {sheet.share(3), 560});
-  const auto triangulation = [&](const std::string& title, const PlaneFrame& shown) {
-    sheet.panel(title, shown.width, shown.height);
-    PlanePanel panel(sheet.svg(), shown, {0, 0});
-    panel.edges(moment.drawing, EdgeKind::inner, palette::delaunay, 0.7);
+  const std::vector<PlaneFrame> frames = run.frames({sheet.share(3), 560}, 1);
+  const auto triangulation = [&](PlanePanel& panel) {
+    panel.edges(moment.drawing, EdgeKind::inner, palette::delaunay,
+                std::min(0.7, 0.3 * panel.spot_size(moment.drawing)));
     panel.inverted(moment.drawing);
-    panel.lines(moment.drawing, 1.6);
+    panel.lines(moment.drawing, 1.4);
     panel.sites(run.story, moment.drawing);
   };
-  triangulation("Constrained Delaunay triangulation of the samples", frame);
-  triangulation("Closer", closeup_of(frame, moment.drawing, place_at_constraint(moment), 9, {sheet.share(3), 360}));
+  add_map(sheet, run, frames);
+  if (frames.size() > 1) sheet.end_row();
+  add_insets(sheet, "Constrained Delaunay triangulation of the samples", frames, triangulation);
+  add_insets(
+      sheet, "Closer",
+      {closeup_of(frames[0], moment.drawing, place_at_lines(moment.drawing), 12, {sheet.share(3), frames[0].height})},
+      triangulation);
   sheet.frame_panel();
   return written(
       sheet.write(task.file, "Figure 9: constrained Delaunay triangulation", chart_legend(run.story, nullptr)));
@@ -204,19 +247,24 @@ Status draw_figure_11(const FigureTask& task) {
   const Model original = model_of(surface);
   const Camera camera = direction_for(original, task.settings);
   Sheet sheet;
-  SurfacePanel first(sheet, "Original", original, camera, {sheet.share(4), 420});
+  // Two moments a row, or one with a closer look.
+  std::vector<PlaneFrame> frames = run.frames({sheet.share(3), 420}, 1);
+  const double width = sheet.share(frames.size() > 1 ? 3 : 4);
+  if (frames.size() == 1) frames = run.frames({width, 420}, 0);
+  SurfacePanel first(sheet, "Original", original, camera, {width, 420});
   draw_faces(first.svg(), first.view(), plain_look(first.view(), 0));
   draw_outline(first.svg(), first.view());
-  const PlaneFrame frame = add_map(sheet, run, {sheet.share(4), 420});
+  add_map(sheet, run, frames);
   sheet.end_row();
   for (const ChartMoment& moment : run.story.moment) {
+    if (frames.size() > 1) sheet.end_row();
     std::vector<isolod::SurfacePlace> places;
     ISOLOD_TRY(run.relax(moment.iterations, places));
     const std::string title =
         moment.iterations == 0 ? "Error diffusion" : "Iteration " + std::to_string(moment.iterations);
-    SurfacePanel panel(sheet, title, original, camera, {sheet.share(4), 420});
+    SurfacePanel panel(sheet, title, original, camera, {width, 420});
     draw_samples_on(panel, run.state().sampled(), places);
-    draw_cells(sheet, "", frame, run.story, moment);
+    draw_cells(sheet, "", frames, run.story, moment);
   }
   return written(sheet.write(task.file, "Figure 11: " + grouped(run.state().plan.first_count) + " samples",
                              SampleSpots::legend(run.state().sampled())));
@@ -277,18 +325,19 @@ Status draw_figure_13(const FigureTask& task) {
   ISOLOD_TRY(run.tell({task.options.lloyd_iterations}, false));
   const ChartMoment& moment = run.story.moment[0];
   Sheet sheet;
-  const PlaneFrame frame = frame_of(run.story.map.point, sheet.share(2), 900, 4);
-  draw_cells(sheet, run.map_title() + ", " + grouped(moment.drawing.point.size()) + " samples", frame, run.story,
-             moment);
-  draw_cells(sheet, "Closer",
-             closeup_of(frame, moment.drawing, middle_of(moment.drawing), 9,
-                        {sheet.share(2), std::max(frame.height, 0.8 * sheet.share(2))}),
-             run.story, moment);
-  sheet.frame_panel();
-  return written(sheet.write(
-      task.file,
-      "Figure 13: centroidal Voronoi diagram after " + std::to_string(task.options.lloyd_iterations) + " iterations",
-      chart_legend(run.story, nullptr)));
+  const std::vector<PlaneFrame> frames = run.frames({sheet.share(2), 700}, 1);
+  draw_cells(sheet, run.map_title(), frames, run.story, moment);
+  sheet.end_row();
+  std::vector<Vec2> targets = {middle_of(moment.drawing), place_at_constraint(moment)};
+  for (const Vec2& target : targets) {
+    draw_cells(sheet, "Closer", closeup_of(frames[0], moment.drawing, target, 22, {sheet.share(2), 460}), run.story,
+               moment);
+    sheet.frame_panel();
+  }
+  return written(sheet.write(task.file,
+                             "Figure 13: centroidal Voronoi diagram of " + grouped(moment.drawing.point.size()) +
+                                 " samples after " + std::to_string(task.options.lloyd_iterations) + " iterations",
+                             chart_legend(run.story, nullptr)));
 }
 
 namespace {
@@ -300,17 +349,24 @@ std::string percent(std::size_t part, std::size_t whole) {
 /// A cell alone, cut up by the original triangles.
 void draw_one_cell(Sheet& sheet, const std::string& title, const ChartStory& story, const ChartMoment& moment,
                    const CellDrawing& cell) {
-  const double size = sheet.share(4);
+  const Vec2 size = {sheet.share(2), 360};
   const Vec2 site = moment.drawing.point[cell.site];
-  sheet.panel(title, size, size);
-  const PlaneFrame whole = frame_of(story.map.point, size, size);
-  PlanePanel panel(sheet.svg(), closeup_of(whole, site, 2 * reach_of(cell, site), size, size), {0, 0});
+  sheet.panel(title, size.x, size.y);
+  const PlaneFrame whole = frame_of(story.map.point, size.x, size.y);
+  PlanePanel panel(sheet.svg(), closeup_of(whole, site, 1.6 * reach_of(cell, site), size.x, size.y), {0, 0});
   panel.polygons({&cell.bounded}, fill_style(cell.is_gabriel ? palette::gabriel : palette::ordinary_cell));
   panel.edges(moment.drawing, EdgeKind::inner, palette::delaunay, 1);
   panel.polygons({&cell.bounded}, stroke_style(palette::voronoi, 2));
   panel.lines(moment.drawing, 1.6);
   panel.sites(story, moment.drawing, 8);
   sheet.frame_panel();
+}
+
+void draw_tags(PlanePanel& panel, const ChartStory& story, const ChartMoment& moment) {
+  panel.gabriel_cells(moment);
+  panel.voronoi(moment);
+  panel.lines(moment.drawing, 1);
+  panel.sites(story, moment.drawing);
 }
 
 }  // namespace
@@ -328,25 +384,16 @@ Status draw_figure_20(const FigureTask& task) {
   draw_one_cell(sheet, "All edges are Gabriel", story, relaxed,
                 cell_near(relaxed, middle, [](const CellDrawing& c) { return c.is_gabriel && !c.is_cut(); }));
   sheet.end_row();
-  const PlaneFrame frame = frame_of(story.map.point, sheet.share(4), 600, 3);
+  std::vector<PlaneFrame> frames = run.frames({sheet.share(4), 600}, 2);
+  frames = {frames.back()};  // the closest look, where the stretch is extreme
   for (const ChartMoment& moment : story.moment) {
-    sheet.panel("Iteration " + std::to_string(moment.iterations) + ": " +
-                    percent(moment.gabriel_count(), moment.cell.size()) + " tagged",
-                frame.width, frame.height);
-    PlanePanel panel(sheet.svg(), frame, {0, 0});
-    panel.gabriel_cells(moment);
-    panel.segments(moment.voronoi, palette::voronoi, 0.5);
-    panel.lines(moment.drawing, 1);
-    std::vector<Vec2> tagged, others;
-    for (const CellDrawing& cell : moment.cell) {
-      (cell.is_gabriel ? tagged : others).push_back(moment.drawing.point[cell.site]);
-    }
-    panel.spots(tagged, palette::tagged, panel.spot_size(moment.drawing));
-    panel.spots(others, palette::sharp, panel.spot_size(moment.drawing));
+    const std::string title = "Iteration " + std::to_string(moment.iterations) + ": " +
+                              percent(moment.gabriel_count(), moment.cell.size()) + " tagged";
+    add_insets(sheet, title, frames, [&](PlanePanel& panel) { draw_tags(panel, story, moment); });
   }
   return written(sheet.write(task.file, "Figure 20: Gabriel cells",
-                             {{Mark::spot, palette::tagged, "sample whose edges are all Gabriel"},
-                              {Mark::spot, palette::sharp, "other sample inside"}}));
+                             {{Mark::area, palette::gabriel, "cells whose edges are all Gabriel: tagged"},
+                              {Mark::area, palette::ordinary_cell, "other cells"}}));
 }
 
 }  // namespace draw

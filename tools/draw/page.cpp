@@ -119,6 +119,12 @@ std::vector<std::uint32_t> colour_charts(const Surface& surface, const isolod::A
   return colour;
 }
 
+bool has_seams(const Surface& surface) {
+  bool found = false;
+  each_line(surface, [&](HalfedgeId, std::uint8_t kind) { found = found || (kind & isolod::line_feature) == 0; });
+  return found;
+}
+
 SurfaceLines seam_lines(const View& view, const Surface& surface) {
   SurfaceLines lines(view);
   each_line(surface, [&](HalfedgeId h, std::uint8_t kind) {

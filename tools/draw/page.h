@@ -44,6 +44,8 @@ bool may_show_edge(const View& view, const isolod::Surface& surface, isolod::Hal
 /// A colour's number for each chart, other than its neighbours' where that can be.
 std::vector<std::uint32_t> colour_charts(const isolod::Surface& surface, const isolod::Atlas& atlas);
 
+bool has_seams(const isolod::Surface& surface);
+
 /// Edges between charts that are no features.
 SurfaceLines seam_lines(const View& view, const isolod::Surface& surface);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace draw {
 
@@ -21,15 +22,30 @@ Vec2 main_axis(const std::vector<Vec2>& points, Vec2 centre) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-/// How far apart the drawing's points are, on average.
-double spacing_of(const PlaneDrawing& drawing) {
-  double area = 0;
+/// Per point of the drawing: how long the edges there are, on average.
+std::vector<double> spacing_at(const PlaneDrawing& drawing) {
+  std::vector<double> sum(drawing.point.size(), 0.0), count(drawing.point.size(), 0.0);
   for (const std::array<std::uint32_t, 3>& face : drawing.face) {
-    const Vec2 a = drawing.point[face[0]];
-    area += 0.5 * std::fabs(cross(drawing.point[face[1]] - a, drawing.point[face[2]] - a));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = face[k], b = face[(k + 1) % 3];
+      const double size = distance(drawing.point[a], drawing.point[b]);
+      sum[a] += size, sum[b] += size;
+      ++count[a], ++count[b];
+    }
   }
-  return std::sqrt(area / static_cast<double>(drawing.point.size() + 1));
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= std::max(count[i], 1.0);
+  return sum;
 }
+
+double spacing_near(const PlaneDrawing& drawing, Vec2 p) {
+  const auto nearest = std::min_element(drawing.point.begin(), drawing.point.end(),
+                                        [&](Vec2 a, Vec2 b) { return distance(a, p) < distance(b, p); });
+  return spacing_at(drawing)[static_cast<std::size_t>(nearest - drawing.point.begin())];
+}
+
+constexpr double least_spot = 0.35, greatest_spot = 6;
+
+double spot_for(double spacing_in_pixels) { return std::clamp(0.2 * spacing_in_pixels, least_spot, greatest_spot); }
 
 }  // namespace
 
@@ -61,7 +77,7 @@ PlaneFrame closeup_of(const PlaneFrame& frame, Vec2 p, double reach, double widt
 }
 
 PlaneFrame closeup_of(const PlaneFrame& frame, const PlaneDrawing& drawing, Vec2 p, double samples_across, Vec2 size) {
-  return closeup_of(frame, p, 0.5 * samples_across * spacing_of(drawing), size.x, size.y);
+  return closeup_of(frame, p, 0.5 * samples_across * spacing_near(drawing, p), size.x, size.y);
 }
 
 bool PlanePanel::may_show(Vec2 low, Vec2 high) const {
@@ -135,6 +151,15 @@ void PlanePanel::segments(const std::vector<std::array<Vec2, 2>>& segments, Colo
   svg_->path(data, stroke_style(colour, width));
 }
 
+void PlanePanel::voronoi(const ChartMoment& moment) {
+  std::map<double, std::vector<std::array<Vec2, 2>>> edges;  // by width
+  for (std::size_t i = 0; i < moment.voronoi.size(); ++i) {
+    const double width = 0.25 * spot_for(frame_.scale * moment.voronoi_spacing[i]);
+    edges[std::clamp(std::round(10 * width) / 10, 0.2, 0.9)].push_back(moment.voronoi[i]);
+  }
+  for (const auto& same : edges) segments(same.second, palette::voronoi, same.first);
+}
+
 void PlanePanel::spots(const std::vector<Vec2>& points, Colour colour, double diameter) {
   PathData data;
   for (const Vec2& p : points) {
@@ -144,18 +169,22 @@ void PlanePanel::spots(const std::vector<Vec2>& points, Colour colour, double di
 }
 
 void PlanePanel::sites(const ChartStory& story, const PlaneDrawing& drawing, double diameter) {
-  if (!(diameter > 0)) diameter = spot_size(drawing);
-  const auto draw = [&](SiteKind kind, Colour colour, double size) {
-    std::vector<Vec2> points;
-    for (std::size_t i = 0; i < story.site.size(); ++i) {
-      if (story.site[i] == kind) points.push_back(drawing.point[i]);
-    }
-    spots(points, colour, size);
+  const std::vector<double> spacing = spacing_at(drawing);
+  const auto size_of = [&](std::size_t i) {
+    if (diameter > 0) return diameter;
+    return std::round(4 * spot_for(frame_.scale * spacing[i])) / 4;  // few sizes, so that many spots share a path
   };
-  draw(SiteKind::surface, palette::surface_sample, diameter);
-  draw(SiteKind::seam, palette::seam_sample, diameter);
-  draw(SiteKind::feature, palette::line_sample, diameter);
-  draw(SiteKind::corner, palette::corner, diameter * 1.4);
+  const auto draw = [&](SiteKind kind, Colour colour, double factor) {
+    std::map<double, std::vector<Vec2>> points;  // by size
+    for (std::size_t i = 0; i < story.site.size(); ++i) {
+      if (story.site[i] == kind) points[size_of(i)].push_back(drawing.point[i]);
+    }
+    for (const auto& same : points) spots(same.second, colour, factor * same.first);
+  };
+  draw(SiteKind::surface, palette::surface_sample, 1);
+  draw(SiteKind::seam, palette::seam_sample, 1);
+  draw(SiteKind::feature, palette::line_sample, 1);
+  draw(SiteKind::corner, palette::corner, 1.4);
 }
 
 void PlanePanel::gabriel_cells(const ChartMoment& moment) {
@@ -166,14 +195,23 @@ void PlanePanel::gabriel_cells(const ChartMoment& moment) {
 }
 
 double PlanePanel::spot_size(const PlaneDrawing& drawing) const {
-  return std::clamp(0.2 * frame_.scale * spacing_of(drawing), 0.8, 6.0);
+  const std::vector<double> spacing = spacing_at(drawing);
+  std::vector<double> seen;
+  for (std::size_t i = 0; i < spacing.size(); ++i) {
+    if (may_show(place(drawing.point[i]), place(drawing.point[i]))) seen.push_back(spacing[i]);
+  }
+  if (seen.empty()) return least_spot;
+  const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2);
+  std::nth_element(seen.begin(), middle, seen.end());
+  return spot_for(frame_.scale * *middle);
 }
 
 std::vector<LegendItem> chart_legend(const ChartStory& story, const ChartMoment* moment) {
   const auto has = [&](SiteKind kind) {
     return std::find(story.site.begin(), story.site.end(), kind) != story.site.end();
   };
-  std::vector<LegendItem> items = {{Mark::line, palette::seam, "seam"}};
+  std::vector<LegendItem> items;
+  if (has(SiteKind::seam)) items.push_back({Mark::line, palette::seam, "seam"});
   if (has(SiteKind::feature) || has(SiteKind::corner)) items.push_back({Mark::line, palette::sharp, "feature"});
   if (has(SiteKind::corner)) items.push_back({Mark::spot, palette::corner, "corner"});
   if (moment != nullptr) {

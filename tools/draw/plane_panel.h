@@ -41,8 +41,10 @@ class PlanePanel {
   void inverted(const PlaneDrawing& drawing);
   void polygons(const std::vector<const std::vector<Vec2>*>& polygons, const PathStyle& style);
   void segments(const std::vector<std::array<Vec2, 2>>& segments, Colour colour, double width);
+  /// The edges of the bounded Voronoi diagram, finer where samples lie closer.
+  void voronoi(const ChartMoment& moment);
   void spots(const std::vector<Vec2>& points, Colour colour, double diameter);
-  /// The samples, by kind; a diameter of 0 is chosen by their spacing.
+  /// The samples, by kind; with a diameter of 0 each has one that suits its distance from its neighbours.
   void sites(const ChartStory& story, const PlaneDrawing& drawing, double diameter = 0);
   /// Cells all of whose edges are Gabriel in one colour, the others in another.
   void gabriel_cells(const ChartMoment& moment);
@@ -51,7 +53,7 @@ class PlanePanel {
   Vec2 place(Vec2 p) const { return corner_ + frame_.place(p); }
   /// Whether something between these bounds may be seen.
   bool may_show(Vec2 low, Vec2 high) const;
-  /// The diameter that suits the samples' spacing.
+  /// The diameter that suits the usual spacing of the samples in sight.
   double spot_size(const PlaneDrawing& drawing) const;
 
  private:

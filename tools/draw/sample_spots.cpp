@@ -9,15 +9,11 @@ namespace draw {
 
 using isolod::Surface;
 
-namespace {
-
 Vec3 line_place(const isolod::SampledSurface& samples, const isolod::LinePlace& place) {
   const isolod::HalfedgeId h = samples.backbones->edge[place.edge];
   const Vec3 a = samples.surface->position(samples.surface->mesh.origin[h]);
   return a + place.along * (samples.surface->position(samples.surface->mesh.target(h)) - a);
 }
-
-}  // namespace
 
 SampleSpots::SampleSpots(const View& view, const isolod::SampledSurface& samples,
                          isolod::Span<const isolod::SurfacePlace> places)

@@ -7,6 +7,9 @@
 
 namespace draw {
 
+/// Where a sample of a line lies in space.
+Vec3 line_place(const isolod::SampledSurface& samples, const isolod::LinePlace& place);
+
 class SampleSpots {
  public:
   /// `places`: where the surface samples are, as many as `samples.places`.

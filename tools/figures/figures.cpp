@@ -1,7 +1,6 @@
 // isolod_figures: draws one figure of the paper from a mesh file. tools/figures.sh calls it for all of them.
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 
 #include "draw/figures.h"
 #include "isolod/arguments.h"
@@ -21,13 +20,15 @@ const CommandRule& figures_rule() {
                                    2,
                                    "Draws one figure of the paper from IN, a mesh file.",
                                    {{"-o", "OUT", "the SVG file to write"},
-                                    {"--beside", "IN2", "a second mesh, for figure 3"},
+                                    {"--beside", "IN2", "a second mesh, for figures 3 and 6"},
                                     {"--vertices", "N", "vertices of the result; 5000"},
+                                    {"--paper", nullptr, "the paper as printed: one chart a component, seams kept"},
                                     {"--features", "DEG", "edges sharper than this angle are kept"},
                                     {"--gamma", "G", "exponent of the curvature where the figure itself sets none; 1"},
                                     {"--smooth", "N", "low-pass passes over the density"},
                                     {"--lloyd", "N", "iterations of the relaxation"},
-                                    {"--toward", "X,Y,Z", "from the model to the eye, y up; chosen when not given"},
+                                    {"--toward", "X,Y,Z", "from the model to the eye; chosen when not given"},
+                                    {"--up", "X,Y,Z", "upwards in the picture, with --toward; 0,1,0"},
                                     {"--closeup", "X,Y,Z", "what closer looks look at; chosen when not given"}}};
   return rule;
 }
@@ -59,8 +60,10 @@ bool read_triple(const Arguments& arguments, const char* option, double (&triple
 }
 
 isolod::Options options_from(const Arguments& arguments) {
+  const std::uint32_t vertices = static_cast<std::uint32_t>(arguments.count("--vertices", 5000, most_count));
   isolod::Options options;
-  options.vertex_count = static_cast<std::uint32_t>(arguments.count("--vertices", 5000, most_count));
+  if (arguments.has("--paper")) options = isolod::paper_options(vertices);
+  options.vertex_count = vertices;
   options.feature_angle = arguments.number("--features", 0, 0, 180);
   options.gamma = arguments.number("--gamma", 1, 0, 8);
   options.smoothing_passes = static_cast<std::uint32_t>(arguments.count("--smooth", 0, most_count));
@@ -80,6 +83,7 @@ int run(int count, char** words) {
   task.file = arguments.required_text("-o");
   task.options = options_from(arguments);
   task.settings.direction_given = read_triple(arguments, "--toward", task.settings.toward);
+  (void)read_triple(arguments, "--up", task.settings.up);
   task.closeup_given = read_triple(arguments, "--closeup", task.closeup);
   const tool::InputMesh mesh = tool::read_mesh_file(arguments.operand(1));
   task.view = mesh.view();
@@ -96,14 +100,4 @@ int run(int count, char** words) {
 
 }  // namespace
 
-int main(int count, char** words) {
-  try {
-    return run(count, words);
-  } catch (const tool::Failure& failure) {
-    std::fprintf(stderr, "isolod_figures: %s\n", failure.message.c_str());
-    return failure.exit_code;
-  } catch (const std::exception& exception) {
-    std::fprintf(stderr, "isolod_figures: %s\n", exception.what());
-    return tool::exit_internal;
-  }
-}
+int main(int count, char** words) { return tool::run_program("isolod_figures", run, count, words); }

@@ -1,6 +1,8 @@
 #include "isolod/failure.h"
 
 #include <cstdio>
+#include <exception>
+#include <new>
 
 namespace tool {
 
@@ -105,6 +107,24 @@ std::string exit_code_help() {
     text += line;
   }
   return text;
+}
+
+int run_program(const char* program, int (*run)(int count, char** words), int count, char** words) {
+  const auto report = [&](int code, const char* message) {
+    std::fprintf(stderr, "%s: %s\n", program, message);
+    return code;
+  };
+  try {
+    const int code = run(count, words);
+    const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    return written ? code : report(exit_code(Status::cannot_open), "standard output: write error");
+  } catch (const Failure& failure) {
+    return report(failure.exit_code, failure.message.c_str());
+  } catch (const std::bad_alloc&) {
+    return report(exit_code(Status::out_of_memory), "this machine has not enough memory for that [out_of_memory]");
+  } catch (const std::exception& exception) {
+    return report(exit_internal, exception.what());
+  }
 }
 
 void fail_usage(const std::string& message) { throw Failure{exit_usage, message}; }

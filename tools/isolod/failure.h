@@ -32,6 +32,9 @@ std::string describe(const isolod::Status& status);
 /// The table of exit codes, for --help.
 std::string exit_code_help();
 
+/// All of a program's main: runs it, prints on the error stream why it failed, and gives the exit code.
+int run_program(const char* program, int (*run)(int count, char** words), int count, char** words);
+
 [[noreturn]] void fail_usage(const std::string& message);
 [[noreturn]] void fail_status(const std::string& subject, const isolod::Status& status);
 

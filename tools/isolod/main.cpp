@@ -1,8 +1,6 @@
 // isolod, the program: remeshes files and looks at them. The commands are in command_*.cpp.
 #include <cstdio>
 #include <cstring>
-#include <exception>
-#include <new>
 
 #include "isolod/commands.h"
 #include "isolod/failure.h"
@@ -54,23 +52,6 @@ int run(int count, char** words) {
   fail_usage("unknown command '" + first + "'" + (near.empty() ? "; see isolod --help" : "; is " + near + " meant?"));
 }
 
-int report(int code, const char* message) {
-  std::fprintf(stderr, "isolod: %s\n", message);
-  return code;
-}
-
 }  // namespace
 
-int main(int count, char** words) {
-  try {
-    const int code = run(count, words);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return report(21, "standard output: write error");
-    return code;
-  } catch (const tool::Failure& failure) {
-    return report(failure.exit_code, failure.message.c_str());
-  } catch (const std::bad_alloc&) {
-    return report(18, "this machine has not enough memory for that [out_of_memory]");
-  } catch (const std::exception& exception) {
-    return report(tool::exit_internal, exception.what());
-  }
-}
+int main(int count, char** words) { return tool::run_program("isolod", run, count, words); }

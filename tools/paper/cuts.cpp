@@ -111,12 +111,7 @@ Status print_row(const Task& task, const Surface& surface, std::size_t genus, do
 }  // namespace
 
 Status print_cuts(const Task& task) {
-  isolod::Options options;
-  options.vertex_count = task.vertices;
-  options.feature_angle = task.feature_angle;
-  options.weld = task.weld;
-  options.remove_seams = false;
-  draw::StagedRun run(task.view, options);
+  draw::StagedRun run(task.view, options_of(task));
   ISOLOD_TRY(run.finish("refine"));
   const Surface& surface = run.state()->surface;
   Arena& arena = run.arena();

@@ -108,12 +108,7 @@ Status diffuse_in(const char* name, const Diffusion& input, const Wishes& wishes
 }  // namespace
 
 Status print_fluencies(const Task& task) {
-  isolod::Options options;
-  options.vertex_count = task.vertices;
-  options.feature_angle = task.feature_angle;
-  options.weld = task.weld;
-  options.remove_seams = false;
-  draw::StagedRun run(task.view, options);
+  draw::StagedRun run(task.view, options_of(task));
   ISOLOD_TRY(run.finish("refine"));
   const Surface& surface = run.state()->surface;
   Arena& arena = run.arena();

@@ -1,13 +1,25 @@
 // isolod_paper: measures the paper's parts on meshes, beside what a whole run shows. Prints CSV. tools/check_paper.sh
 // holds its rows against bars.
 #include <cstdio>
-#include <exception>
 #include <filesystem>
 
 #include "isolod/arguments.h"
 #include "isolod/failure.h"
 #include "isolod/files.h"
 #include "paper/paper.h"
+
+namespace paper {
+
+isolod::Options options_of(const Task& task) {
+  isolod::Options options;
+  options.vertex_count = task.vertices;
+  options.feature_angle = task.feature_angle;
+  options.weld = task.weld;
+  options.remove_seams = false;
+  return options;
+}
+
+}  // namespace paper
 
 namespace {
 
@@ -53,14 +65,4 @@ int run(int count, char** words) {
 
 }  // namespace
 
-int main(int count, char** words) {
-  try {
-    return run(count, words);
-  } catch (const tool::Failure& failure) {
-    std::fprintf(stderr, "isolod_paper: %s\n", failure.message.c_str());
-    return failure.exit_code;
-  } catch (const std::exception& exception) {
-    std::fprintf(stderr, "isolod_paper: %s\n", exception.what());
-    return tool::exit_internal;
-  }
-}
+int main(int count, char** words) { return tool::run_program("isolod_paper", run, count, words); }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "isolod/mesh.h"
+#include "isolod/options.h"
 #include "isolod/status.h"
 
 namespace paper {
@@ -16,6 +17,9 @@ struct Task {
   double feature_angle = 40;  ///< degrees; 0: no sharp edges
   bool weld = false;
 };
+
+/// What a run over it has to be begun with: all samples at once, as the first mesh has them.
+isolod::Options options_of(const Task& task);
 
 extern const char* const fluency_columns;
 

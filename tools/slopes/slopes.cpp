@@ -5,7 +5,6 @@
 // are d^2 and d^3. Prints CSV: the slope of log(realised density) over log(wished density) after each iteration, for
 // both weights on three charts where d varies 16-fold, and draws the curves. The wish itself is slope 1.
 #include <cstdio>
-#include <exception>
 
 #include "isolod/arguments.h"
 #include "isolod/failure.h"
@@ -71,14 +70,4 @@ int run(int count, char** words) {
 
 }  // namespace
 
-int main(int count, char** words) {
-  try {
-    return run(count, words);
-  } catch (const tool::Failure& failure) {
-    std::fprintf(stderr, "isolod_slopes: %s\n", failure.message.c_str());
-    return failure.exit_code;
-  } catch (const std::exception& exception) {
-    std::fprintf(stderr, "isolod_slopes: %s\n", exception.what());
-    return tool::exit_internal;
-  }
-}
+int main(int count, char** words) { return tool::run_program("isolod_slopes", run, count, words); }

@@ -124,6 +124,27 @@ TEST_CASE("mend_flat: of three held on a line the longest side is flipped") {
   CHECK_FALSE(are_adjacent(hand.mesh.mesh, VertexId{0}, VertexId{2}));
 }
 
+TEST_CASE("mend_flat: three held on a line that is straight but for rounding count as flat") {
+  for (const double off : {1e-12, -1e-12, 1e-9, 1e-7}) {
+    CAPTURE(off);
+    Hand hand({{0.25, 0.1}, {0.5, 0.1 + off}, {0.75, 0.1}, {0.25, 0.35}, {0.25, 0.6}, {0.1, 0.7}},
+              {{0, 1, 2}, {2, 3, 0}, {2, 4, 3}, {0, 3, 5}});
+    for (std::uint32_t s : {0U, 1U, 2U}) hand.samples.held[s] = 1;
+    CHECK(hand.mend() == 0);
+    CHECK(support::broken(hand.mesh) == "");
+    CHECK(are_adjacent(hand.mesh.mesh, VertexId{1}, VertexId{3}));
+  }
+}
+
+TEST_CASE("mend_flat: a flip that makes it no better is taken back") {
+  // All four held on one line.
+  Hand hand({{0.25, 0}, {0.5, 0}, {0.75, 0}, {0.375, 0}}, {{0, 1, 2}, {2, 3, 0}});
+  for (std::uint8_t& h : hand.samples.held) h = 1;
+  CHECK(hand.mend() == 2);
+  CHECK(support::broken(hand.mesh) == "");
+  CHECK(are_adjacent(hand.mesh.mesh, VertexId{0}, VertexId{2}));
+}
+
 TEST_CASE("mend_flat: what cannot be mended is counted, and the mesh stays whole") {
   Hand hand({{0.25, 0}, {0.5, 0}, {0.75, 0}}, {{0, 1, 2}});
   for (std::uint8_t& h : hand.samples.held) h = 1;

@@ -1,7 +1,5 @@
 #include "relax/mend_flat.h"
 
-#include "mesh/collinear.h"
-
 namespace isolod {
 inline namespace v1 {
 
@@ -29,6 +27,33 @@ HalfedgeId longest_side(const Surface& surface, const Halfedges& mesh, const Sam
   return longest;
 }
 
+/// Twice the area over the square of the longest side: the height in longest sides.
+double relative_height(const Surface& surface, const Halfedges& mesh, const Samples& samples, FaceId f) {
+  Vec3 corner[3];
+  double longest = 0;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    corner[k] = position_of(surface, samples, SampleId{mesh.origin[halfedge(f, k)].value});
+  }
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Vec3 side = corner[(k + 1) % 3] - corner[k];
+    longest = greater(longest, dot(side, side));
+  }
+  return longest > 0 ? length(cross(corner[1] - corner[0], corner[2] - corner[0])) / longest : 0;
+}
+
+/// Flips the edge unless one of the faces would come out flatter than the flatter one is.
+void flip_if_better(const Surface& surface, Triangulation& mesh, const Samples& samples, HalfedgeId h) {
+  if (!can_flip(mesh, h)) return;
+  const FaceId faces[2] = {face(h), face(mesh.mesh.twin[h])};
+  const auto flatter = [&] {
+    return smaller(relative_height(surface, mesh.mesh, samples, faces[0]),
+                   relative_height(surface, mesh.mesh, samples, faces[1]));
+  };
+  const double before = flatter();
+  flip(mesh, h);
+  if (!(flatter() > before)) flip(mesh, prev(h));
+}
+
 void mend(const Surface& surface, Triangulation& mesh, Samples& samples, FaceId f, std::uint32_t round) {
   const HalfedgeId longest = longest_side(surface, mesh.mesh, samples, f);
   // The apex first: it lies between the ends of the longest side.
@@ -39,15 +64,12 @@ void mend(const Surface& surface, Triangulation& mesh, Samples& samples, FaceId 
     push(samples.place[s], (s.value + round) % 3);
     return;
   }
-  if (can_flip(mesh, longest)) flip(mesh, longest);
+  flip_if_better(surface, mesh, samples, longest);
 }
 
 bool has_no_area(const Surface& surface, const Halfedges& mesh, const Samples& samples, FaceId f) {
-  Vec3 corner[3];
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    corner[k] = position_of(surface, samples, SampleId{mesh.origin[halfedge(f, k)].value});
-  }
-  return exactly_collinear(corner[0], corner[1], corner[2]);
+  constexpr double least_height = 1e-5;
+  return !(relative_height(surface, mesh, samples, f) > least_height);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
-// The last resort against faces without area.
+// The last resort against faces without area, or with as good as none: a height under 1e-5 of the longest side.
 //
-// Where no map held a star, two samples may have come down on one place, or three on one straight line. A free sample
-// of such a face is pushed within its face of the surface; where all three are held, the face's longest side is
-// flipped.
+// Where no map held a star, two samples may have come down on one place, or three on one line that is straight but for
+// the rounding of its vertices. A free sample of such a face is pushed within its face of the surface; where all three
+// are held, the face's longest side is flipped if the flatter of its two faces gets less flat by it.
 #pragma once
 
 #include "mesh/triangulation.h"
@@ -11,7 +11,7 @@
 namespace isolod {
 inline namespace v1 {
 
-/// Returns how many faces without area are left after at most 8 rounds. O(faces) time a round, no memory.
+/// Returns how many such faces are left after at most 8 rounds. O(faces) time a round, no memory.
 std::uint32_t mend_flat_faces(const Surface& surface, Triangulation& mesh, Samples& samples);
 
 }  // namespace v1

@@ -136,6 +136,18 @@ TEST_CASE("mend_flat: three held on a line that is straight but for rounding cou
   }
 }
 
+TEST_CASE("mend_flat: a free sample that can only go along a needle of the surface is helped by a flip") {
+  support::Soup soup;
+  soup.vertex(0, 0, 0), soup.vertex(8, 0, 0), soup.vertex(8, 1e-9, 0), soup.vertex(4, 6, 0);
+  soup.face(0, 1, 2), soup.face(0, 2, 3);
+  Piece ground(soup);
+  Hand hand({{0.25, 0}, {0.5, 0.01}, {0.75, 0}, {0.25, 0.25}, {0.25, 0.5}, {0.1, 0.6}},
+            {{0, 1, 2}, {2, 3, 0}, {2, 4, 3}, {0, 3, 5}});
+  for (std::uint32_t s : {3U, 4U, 5U}) hand.samples.place[s].face = FaceId{1};
+  CHECK(mend_flat_faces(ground.surface, hand.mesh, hand.samples) == 0);
+  CHECK(support::broken(hand.mesh) == "");
+}
+
 TEST_CASE("mend_flat: a flip that makes it no better is taken back") {
   // All four held on one line.
   Hand hand({{0.25, 0}, {0.5, 0}, {0.75, 0}, {0.375, 0}}, {{0, 1, 2}, {2, 3, 0}});

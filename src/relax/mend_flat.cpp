@@ -41,9 +41,9 @@ double relative_height(const Surface& surface, const Halfedges& mesh, const Samp
   return longest > 0 ? length(cross(corner[1] - corner[0], corner[2] - corner[0])) / longest : 0;
 }
 
-/// Flips the edge unless one of the faces would come out flatter than the flatter one is.
-void flip_if_better(const Surface& surface, Triangulation& mesh, const Samples& samples, HalfedgeId h) {
-  if (!can_flip(mesh, h)) return;
+/// Flips the edge unless one of the faces would come out no less flat than the flatter one is; tells whether it did.
+bool flip_if_better(const Surface& surface, Triangulation& mesh, const Samples& samples, HalfedgeId h) {
+  if (!can_flip(mesh, h)) return false;
   const FaceId faces[2] = {face(h), face(mesh.mesh.twin[h])};
   const auto flatter = [&] {
     return smaller(relative_height(surface, mesh.mesh, samples, faces[0]),
@@ -51,20 +51,28 @@ void flip_if_better(const Surface& surface, Triangulation& mesh, const Samples& 
   };
   const double before = flatter();
   flip(mesh, h);
-  if (!(flatter() > before)) flip(mesh, prev(h));
+  if (flatter() > before) return true;
+  flip(mesh, prev(h));
+  return false;
 }
 
-void mend(const Surface& surface, Triangulation& mesh, Samples& samples, FaceId f, std::uint32_t round) {
-  const HalfedgeId longest = longest_side(surface, mesh.mesh, samples, f);
-  // The apex first: it lies between the ends of the longest side.
+/// The corner at the apex of the longest side first: it lies between the ends. `none` where all three are held.
+SampleId free_corner(const Halfedges& mesh, const Samples& samples, HalfedgeId longest) {
   const HalfedgeId order[3] = {prev(longest), longest, next(longest)};
   for (HalfedgeId h : order) {
-    const SampleId s{mesh.mesh.origin[h].value};
-    if (samples.held[s]) continue;
-    push(samples.place[s], (s.value + round) % 3);
-    return;
+    const SampleId s{mesh.origin[h].value};
+    if (!samples.held[s]) return s;
   }
-  flip_if_better(surface, mesh, samples, longest);
+  return none<SampleId>();
+}
+
+/// In the first round a free sample is pushed. Where that did not help, because its face of the surface is a needle
+/// itself, the flip goes first.
+void mend(const Surface& surface, Triangulation& mesh, Samples& samples, FaceId f, std::uint32_t round) {
+  const HalfedgeId longest = longest_side(surface, mesh.mesh, samples, f);
+  const SampleId s = free_corner(mesh.mesh, samples, longest);
+  if ((round > 0 || s.is_none()) && flip_if_better(surface, mesh, samples, longest)) return;
+  if (!s.is_none()) push(samples.place[s], (s.value + round) % 3);
 }
 
 bool has_no_area(const Surface& surface, const Halfedges& mesh, const Samples& samples, FaceId f) {

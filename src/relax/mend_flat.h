@@ -2,7 +2,8 @@
 //
 // Where no map held a star, two samples may have come down on one place, or three on one line that is straight but for
 // the rounding of its vertices. A free sample of such a face is pushed within its face of the surface; where all three
-// are held, the face's longest side is flipped if the flatter of its two faces gets less flat by it.
+// are held, or pushing did not help, the face's longest side is flipped if the flatter of its two faces gets less flat
+// by it.
 #pragma once
 
 #include "mesh/triangulation.h"

@@ -176,7 +176,7 @@ Soup joined(const Soup& a, const Soup& b) {
 }
 
 CutTopology measured(const Surface& surface, Mask& cut) {
-  support::Block block;
+  support::Block block(4096 + 64 * cut.size());  // small: it is asked for a million times
   CutTopology topology;
   REQUIRE(measure_cut(surface, span(cut), topology, block.arena).is_ok());
   CHECK(block.arena.used() == 0);

@@ -34,7 +34,7 @@ struct Ground {
     return total();
   }
   CutTopology topology() {
-    support::Block block;
+    support::Block block(4096 + 64 * length.size());  // small: it is asked for a million times
     CutTopology topology;
     REQUIRE(measure_cut(surface, mask(), topology, block.arena).is_ok());
     return topology;

@@ -83,7 +83,7 @@ SurfacePanel::SurfacePanel(Sheet& sheet, const std::string& title, const Model& 
 
 SurfacePanel::SurfacePanel(Sheet& sheet, const std::string& title, const SurfacePanel& of, Vec3 target, double zoom,
                            Vec2 size)
-    : sheet_(&sheet), camera_(of.camera_), size_(size), zoom_(zoom), spacing_(of.spacing_) {
+    : sheet_(&sheet), camera_(of.camera_), size_(size), spacing_(of.spacing_) {
   camera_.scale *= zoom;
   const ScreenPoint at = camera_.project(target);
   camera_.origin_x += 0.5 * size.x - at.x;

@@ -49,7 +49,6 @@ class SurfacePanel {
   Model model_;  // a closer look has only the faces that it shows
   Camera camera_;
   Vec2 size_{0, 0};
-  double zoom_ = 1;
   double spacing_ = 0;  // of the whole model's vertices
   std::unique_ptr<View> view_;
 };

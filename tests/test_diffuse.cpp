@@ -28,8 +28,9 @@ Diffused diffused(Prepared& p, std::uint32_t budget) {
   out.total = budget - nodes - static_cast<std::uint32_t>(lines.place.count);
   out.count.assign(p.surface.mesh.face_count(), 12345);
   const std::size_t used = p.block.arena.used();
-  REQUIRE(diffuse(p.surface, p.backbones, lines, rates.surface, out.total, {out.count.data(), out.count.size()},
-                  p.block.arena)
+  FluencyReport report;
+  REQUIRE(diffuse({&p.surface, &p.backbones, &lines, rates.surface, out.total}, {out.count.data(), out.count.size()},
+                  report, p.block.arena)
               .is_ok());
   CHECK(p.block.arena.used() == used);
   return out;
@@ -69,8 +70,10 @@ TEST_CASE("diffuse: tiny and huge numbers on surfaces without lines") {
       CAPTURE(name);
       CAPTURE(total);
       for (const double rate : {1e-6, 1.0, 1e6}) {  // a rate that does not fit the total is corrected
+        FluencyReport report;
         REQUIRE(
-            diffuse(p.surface, p.backbones, none, rate, total, {count.data(), count.size()}, p.block.arena).is_ok());
+            diffuse({&p.surface, &p.backbones, &none, rate, total}, {count.data(), count.size()}, report, p.block.arena)
+                .is_ok());
         CHECK(sum_of(count) == total);
       }
     }

@@ -1,9 +1,24 @@
 #include "atlas/chart.h"
 
+#include "base/sort.h"
 #include "base/status.h"
 
 namespace isolod {
 inline namespace v1 {
+
+Status list_charts(std::uint32_t chart_count, Atlas& atlas, Arena& arena) {
+  ISOLOD_TRY(arena.result(chart_count + std::size_t{1}, atlas.start));
+  const ScratchScope scope(arena);
+  Span<FaceId> all;
+  ISOLOD_TRY(arena.scratch(atlas.chart_of_face.count, all));
+  for (FaceId f : Ids<FaceId>(all.count)) all[f] = f;
+  counting_sort<FaceId>(all, atlas.faces, atlas.start, [&](FaceId f) { return atlas.chart_of_face[f]; });
+  for (std::uint32_t i = 0; i < atlas.faces.count; ++i) {
+    const FaceId f = atlas.faces[i];
+    atlas.place[f] = i - atlas.start[atlas.chart_of_face[f]];
+  }
+  return {};
+}
 
 namespace {
 

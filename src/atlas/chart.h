@@ -22,6 +22,10 @@ struct Atlas {
   }
 };
 
+/// Fills `faces`, `place` and `start` from `chart_of_face`, each chart's faces in order of index. `faces` and `place`
+/// are given, one entry a face; `start` is allocated as a result. O(n) time, 4 bytes a face of scratch, given back.
+Status list_charts(std::uint32_t chart_count, Atlas& atlas, Arena& arena);
+
 struct Chart {
   Span<const FaceId> faces;  ///< per local face: the surface's
   Halfedges mesh;            ///< local; a side towards another chart has no twin

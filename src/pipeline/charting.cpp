@@ -81,18 +81,7 @@ Status Charting::merge(Surface& surface, const Atlas& charts, Span<const Vec2f> 
   std::uint32_t count = 0;
   for (std::uint32_t& n : number) n = n == 0 ? count++ : n;
   for (std::uint32_t& label : atlas_.chart_of_face) label = number[label];
-  ISOLOD_TRY(order_by_region(atlas_.chart_of_face, count, atlas_.faces, arena));
-  ISOLOD_TRY(arena.result(count + std::size_t{1}, atlas_.start));
-  std::size_t end = 0;
-  for (std::uint32_t c = 0; c < count; ++c) {
-    atlas_.start[c] = static_cast<std::uint32_t>(end);
-    end = end_of_region(atlas_.faces, atlas_.chart_of_face, end);
-    for (std::size_t i = atlas_.start[c]; i < end; ++i) {
-      atlas_.place[atlas_.faces[i]] = static_cast<std::uint32_t>(i - atlas_.start[c]);
-    }
-  }
-  atlas_.start[count] = static_cast<std::uint32_t>(end);
-  return {};
+  return list_charts(count, atlas_, arena);
 }
 
 Status Charting::finish(Surface& surface, Atlas& atlas, ChartMaps& maps, Arena& arena) {

@@ -2,7 +2,6 @@
 
 #include "atlas/greedy_cut.h"
 #include "atlas/loop_shortening.h"
-#include "base/sort.h"
 #include "base/status.h"
 
 namespace isolod {
@@ -27,9 +26,9 @@ Status SingleChart::give_up(Status status, Arena& arena) {
 
 Status SingleChart::prepare(Arena& arena) {
   const std::size_t face_count = surface_->mesh.face_count(), halfedge_count = 3 * face_count;
-  ISOLOD_TRY(arena.result(face_count, label_));
-  ISOLOD_TRY(arena.result(face_count, order_));
-  ISOLOD_TRY(arena.result(face_count, place_));
+  ISOLOD_TRY(arena.result(face_count, atlas_.chart_of_face));
+  ISOLOD_TRY(arena.result(face_count, atlas_.faces));
+  ISOLOD_TRY(arena.result(face_count, atlas_.place));
   ISOLOD_TRY(arena.result(halfedge_count, uv_));
   ISOLOD_TRY(find_components(arena));
   for (SingleChartReport& r : reports_) r = SingleChartReport{};
@@ -46,33 +45,24 @@ Status SingleChart::prepare(Arena& arena) {
 Status SingleChart::find_components(Arena& arena) {
   const Halfedges& mesh = surface_->mesh;
   std::uint32_t count = 0;
-  for (std::uint32_t& l : label_) l = UINT32_MAX;
-  for (FaceId seed : Ids<FaceId>(label_.count)) {
-    if (label_[seed] != UINT32_MAX) continue;
+  for (std::uint32_t& l : atlas_.chart_of_face) l = UINT32_MAX;
+  for (FaceId seed : Ids<FaceId>(atlas_.chart_of_face.count)) {
+    if (atlas_.chart_of_face[seed] != UINT32_MAX) continue;
     std::size_t tail = 0;
-    order_[tail++] = seed;  // its place is used as the queue
-    label_[seed] = count;
+    atlas_.faces[tail++] = seed;  // its place is used as the queue
+    atlas_.chart_of_face[seed] = count;
     for (std::size_t head = 0; head < tail; ++head) {
       for (std::uint32_t k = 0; k < 3; ++k) {
-        const HalfedgeId t = mesh.twin[halfedge(order_[head], k)];
-        if (t.is_none() || label_[face(t)] != UINT32_MAX) continue;
-        label_[face(t)] = count;
-        order_[tail++] = face(t);
+        const HalfedgeId t = mesh.twin[halfedge(atlas_.faces[head], k)];
+        if (t.is_none() || atlas_.chart_of_face[face(t)] != UINT32_MAX) continue;
+        atlas_.chart_of_face[face(t)] = count;
+        atlas_.faces[tail++] = face(t);
       }
     }
     ++count;
   }
-  ISOLOD_TRY(arena.result(count + std::size_t{1}, start_));
-  ISOLOD_TRY(arena.result(count, reports_));
-  const ScratchScope scope(arena);
-  Span<FaceId> all;
-  ISOLOD_TRY(arena.scratch(label_.count, all));
-  for (FaceId f : Ids<FaceId>(label_.count)) all[f] = f;
-  counting_sort(Span<const FaceId>(all), order_, start_, [&](FaceId f) { return label_[f]; });
-  for (std::uint32_t c = 0; c < count; ++c) {
-    for (std::uint32_t i = start_[c]; i < start_[c + 1]; ++i) place_[order_[i]] = i - start_[c];
-  }
-  return {};
+  ISOLOD_TRY(list_charts(count, atlas_, arena));
+  return arena.result(count, reports_);
 }
 
 Status SingleChart::cut_by_loops(Span<std::uint8_t> cut, Arena& arena) {
@@ -97,9 +87,9 @@ Status SingleChart::cut_handles(Arena& arena) {
   }
   arena.rewind_results(results);
   for (std::uint8_t& c : is_cut) c = 0;
-  for (HalfedgeId h : Ids<HalfedgeId>(other.count)) is_cut[label_[face(h)]] |= other[h];
+  for (HalfedgeId h : Ids<HalfedgeId>(other.count)) is_cut[atlas_.chart_of_face[face(h)]] |= other[h];
   for (HalfedgeId h : Ids<HalfedgeId>(other.count)) {
-    if (!is_cut[label_[face(h)]]) other[h] = cut_[h];
+    if (!is_cut[atlas_.chart_of_face[face(h)]]) other[h] = cut_[h];
   }
   CutTopology topology;
   ISOLOD_TRY(measure_cut(*surface_, other, topology, arena));
@@ -108,9 +98,7 @@ Status SingleChart::cut_handles(Arena& arena) {
   return {};
 }
 
-Span<const FaceId> SingleChart::faces() const {
-  return order_.slice(start_[component_], start_[component_ + 1] - start_[component_]);
-}
+Span<const FaceId> SingleChart::faces() const { return atlas_.chart_faces(component_); }
 
 /// By the Euler characteristic: without a boundary there are half as many edges more as faces.
 bool SingleChart::is_closed_sphere() const {
@@ -139,7 +127,7 @@ void SingleChart::mark_seams(Span<const FaceId> faces, Span<const std::uint8_t> 
 Status SingleChart::begin_map(Arena& arena) {
   arena.rewind_scratch(mark_);
   mark_seams(faces(), cut_);
-  ISOLOD_TRY(build_cut_chart(*surface_, faces(), label_, place_, chart_, arena));
+  ISOLOD_TRY(build_cut_chart(*surface_, faces(), atlas_.chart_of_face, atlas_.place, chart_, arena));
   ISOLOD_TRY(arena.scratch(chart_.mesh.vertex_count(), local_uv_));
   phase_ = Phase::map;
   return map_.begin(*surface_, chart_, options_.flatten, local_uv_, arena);
@@ -221,10 +209,7 @@ Status SingleChart::advance(Arena& arena) {
 
 Status SingleChart::finish(Atlas& atlas, Span<Vec2>& uv, Span<SingleChartReport>& reports, Arena& arena) {
   arena.rewind_scratch(begin_);
-  atlas.chart_of_face = label_;
-  atlas.faces = order_;
-  atlas.start = start_;
-  atlas.place = place_;
+  atlas = atlas_;
   uv = uv_;
   reports = reports_;
   return {};

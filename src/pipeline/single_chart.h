@@ -75,8 +75,7 @@ class SingleChart {
 
   Surface* surface_ = nullptr;
   SingleChartOptions options_;
-  Span<std::uint32_t> label_, place_, start_;
-  Span<FaceId> order_;
+  Atlas atlas_;  // a chart a component
   Span<Vec2> uv_;
   Span<SingleChartReport> reports_;
   Span<double> length_;

@@ -72,12 +72,5 @@ Status diffuse(const Diffusion& input, Span<std::uint32_t> face_count, FluencyRe
   return {};
 }
 
-Status diffuse(const Surface& surface, const Backbones& backbones, const LineSamples& lines, double surface_rate,
-               std::uint32_t surface_samples, Span<std::uint32_t> face_count, Arena& arena) {
-  FluencyReport report;
-  return diffuse({&surface, &backbones, &lines, surface_rate, surface_samples, Fluency::automatic}, face_count, report,
-                 arena);
-}
-
 }  // namespace v1
 }  // namespace isolod

@@ -44,9 +44,5 @@ class Diffuse {
 /// The whole stage. O(n) time but for the strip, see matching.h. Nothing stays in the arena.
 Status diffuse(const Diffusion& input, Span<std::uint32_t> face_count, FluencyReport& report, Arena& arena);
 
-/// The same with the automatic order and without a report.
-Status diffuse(const Surface& surface, const Backbones& backbones, const LineSamples& lines, double surface_rate,
-               std::uint32_t surface_samples, Span<std::uint32_t> face_count, Arena& arena);
-
 }  // namespace v1
 }  // namespace isolod

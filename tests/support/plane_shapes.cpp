@@ -173,7 +173,8 @@ void SampledPiece::sample(std::uint32_t vertex_count) {
   REQUIRE(arena.result(inside, places).is_ok());
   REQUIRE(arena.result(atlas.chart_count() + 1, chart_start).is_ok());
   REQUIRE(arena.result(surface.mesh.face_count(), face_count).is_ok());
-  REQUIRE(diffuse(surface, backbones, lines, rates.surface, inside, face_count, arena).is_ok());
+  FluencyReport report;
+  REQUIRE(diffuse({&surface, &backbones, &lines, rates.surface, inside}, face_count, report, arena).is_ok());
   place_samples(surface, {atlas.faces, atlas.start}, face_count, chart_start, places);
 }
 

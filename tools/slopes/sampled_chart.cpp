@@ -141,7 +141,8 @@ void SampledChart::place(std::uint32_t vertex_count) {
   need(arena_.result(inside, places_));
   need(arena_.result(2, chart_start_));
   need(arena_.result(faces, face_count));
-  need(diffuse(surface_, backbones_, lines_, rates_.surface, inside, face_count, arena_));
+  FluencyReport report;
+  need(diffuse({&surface_, &backbones_, &lines_, rates_.surface, inside}, face_count, report, arena_));
   place_samples(surface_, {atlas_.faces, atlas_.start}, face_count, chart_start_, places_);
 }
 

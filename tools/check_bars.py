@@ -11,12 +11,29 @@ BARS = {
     "lines": "sharp and boundary lines within max(0.02 %, 1.2 sagittas) of edges, straight ones 1e-6, corners in place",
     "density": "where curvature sets the density: rank correlation of wished and realised >= 0.9",
     "time": "bunny to 10,000 vertices in 3 s and 64 MB",
+    "even": "smooth closed: Q mean >= 0.93, valence 6 >= 94 %, cells vary by <= 0.045, least angle >= 32 and none under 30 "
+            "but near cones; elephant, eight, duck, dragon: Q mean >= 0.92, valence 6 >= 92 %",
+    "small": "with sharp lines: Q least >= 0.3, mean >= 0.91, under 30 degrees only in wedges under 45 or beside pinned samples",
+    "near": "fandisk: Hausdorff <= 0.19 %, RMS <= 0.0075 %; bunny, kitten, gargoyle: both at most 1.05 times CGAL's",
+    "mass": "cell masses over their shares vary by <= 5 %; slope of realised over wished density 1 +- 0.02",
+    "handles": "10, 50, 150 handles, 500 components, a tube 200:1, 401 loops: no flipped triangle at 20,000",
+    "seams": "near former seams as elsewhere and as near seams that never were: Q mean within 0.003, valence 6 within 1 "
+             "point, cells' variation within 10 %; no longer chains of edges along them",
+    "budgets": "every V from 1 to 300 exact and valid, or refused below the ceiling; the number named works, one less not",
+    "counts": "20 counts up to four times the input's: exact and valid, or refused as above",
     "broken": "a clean error or a repair, under 10 s, in memory of a small multiple of the file",
 }
 
 
-def verdict(bar, good, case, detail=""):
-    return {"bar": bar, "good": bool(good), "case": case, "detail": detail}
+def verdict(bar, good, case, detail="", shown=False):
+    """`shown`: the detail is printed of good ones too."""
+    return {"bar": bar, "good": bool(good), "case": case, "detail": detail, "shown": shown}
+
+
+def verdict_of(bar, case, values, note=""):
+    """`values`: name, figure, whether it is good. All figures are shown, those that are bad with a mark."""
+    words = [f"{name} {value:.4g}{'' if good else ' (!)'}" for name, value, good in values]
+    return verdict(bar, all(good for _, _, good in values), case, ", ".join(words) + note, True)
 
 
 def label(case):
@@ -46,8 +63,73 @@ def judge_smooth(case, mesh, compared):
     return verdict("smooth", not wrong, label(case), ", ".join(wrong))
 
 
+def places(triangles, count=8):
+    """Where the first of these triangles are."""
+    words = [f"{t['angle']:.1f} at ({t['x']:.3g} {t['y']:.3g} {t['z']:.3g})" for t in triangles[:count]]
+    return f"; {'; '.join(words)}{' ...' if len(triangles) > count else ''}" if words else ""
+
+
+def own_compare(case):
+    return case.result.get("own", {}).get("compare", {})
+
+
+def judge_even(case, mesh):
+    smooth = case.model not in ("cgal-elephant", "cgal-eight", "tri-Duck", "cgal-ChineseDragon-10kv")
+    own = own_compare(case)
+    if not own:
+        return verdict("even", False, label(case), "not measured")
+    q, valence = mesh["q_mean"], mesh["valence6_pct"]
+    if not smooth:
+        return verdict_of("even", label(case), [("Q mean", q, q >= 0.92), ("valence 6 %", valence, valence >= 92)])
+    bare = own["small_triangles"] - own["small_near_cones"]
+    values = [("Q mean", q, q >= 0.93), ("valence 6 %", valence, valence >= 94),
+              ("cells", mesh["voronoi_area_cv"], mesh["voronoi_area_cv"] <= 0.045),
+              ("least angle", own["angle_min_off_cones"], own["angle_min_off_cones"] >= 32),
+              ("under 30", bare, bare == 0), ("near cones", own["small_near_cones"], True)]
+    return verdict_of("even", label(case), values, places(own["small_triangle_list"]))
+
+
+def judge_small(case, mesh):
+    own = own_compare(case)
+    if not own:
+        return verdict("small", False, label(case), "not measured")
+    bare = [t for t in own["small_triangle_list"] if not t["in_narrow_wedge"] and not t["beside_pin"]]
+    values = [("Q least", mesh["q_min"], mesh["q_min"] >= 0.3), ("Q mean", mesh["q_mean"], mesh["q_mean"] >= 0.91),
+              ("under 30", len(bare), not bare), ("in narrow wedges", own["small_in_narrow_wedges"], True),
+              ("beside pinned", own["small_beside_pins"], True)]
+    return verdict_of("small", label(case), values, places(bare))
+
+
+def judge_near(case, compared):
+    values = [("Hausdorff", compared["hausdorff_pct"], compared["hausdorff_pct"] <= 0.19),
+              ("RMS", compared["rms_pct"], compared["rms_pct"] <= 0.0075)]
+    if case.model == "cgal-fandisk":
+        return [verdict_of("near", label(case), values)]
+    if "peer" not in case.result:
+        return []
+    if not case.result["peer"]:
+        return [verdict("near", False, label(case), "CGAL's program failed")]
+    other = case.result["peer"]["compare"]
+    values = [(name, compared[key] / other[key], compared[key] <= 1.05 * other[key])
+              for name, key in (("Hausdorff over CGAL's", "hausdorff_pct"), ("RMS over CGAL's", "rms_pct"))]
+    return [verdict_of("near", label(case), values, f"; CGAL's at {case.result['peer']['remeshed']['vertices']} vertices "
+                       f"{other['hausdorff_pct']:.4g}, {other['rms_pct']:.4g} %")]
+
+
+def judge_mass(case):
+    """Where the wish hardly varies there is no slope to speak of."""
+    own = own_compare(case)
+    if not own:
+        return verdict("mass", False, label(case), "not measured")
+    values = [("variation", own["mass_variation_all"], own["mass_variation_all"] <= 0.05),
+              ("inside", own["mass_variation"], True)]
+    if own["log_wish_deviation"] >= 0.05:
+        values.append(("slope", own["density_slope"], abs(own["density_slope"] - 1) <= 0.02))
+    return verdict_of("mass", label(case), values)
+
+
 def judge_lines(case):
-    compared = case.result.get("own", {}).get("compare")
+    compared = own_compare(case)
     if not compared:
         return verdict("lines", False, label(case), "not measured")
     values = [("distance over bar", compared["line_worst_ratio"], compared["line_worst_ratio"] <= 1),
@@ -115,8 +197,19 @@ def judge_case(case):
     if {"sharp", "boundary"} & case.bars:
         verdicts.append(judge_lines(case))
     if "density" in case.bars:
-        spearman = found.get("own", {}).get("compare", {}).get("density_spearman")
+        spearman = own_compare(case).get("density_spearman")
         verdicts.append(verdict("density", spearman is not None and spearman >= 0.9, label(case), f"{spearman}"))
+    if "even" in case.bars:
+        verdicts.append(judge_even(case, mesh))
+    if "small" in case.bars:
+        verdicts.append(judge_small(case, mesh))
+    if "near" in case.bars:
+        verdicts += judge_near(case, compared)
+    if "mass" in case.bars:
+        verdicts.append(judge_mass(case))
+    if "handles" in case.bars:
+        flips = compared["flipped_triangles_robust"]
+        verdicts.append(verdict_of("handles", label(case), [("flips", flips, flips == 0)]))
     if "time" in case.bars:
         seconds, megabytes = found["report"]["seconds"], found["report"]["arena_bytes"] / 1048576
         verdicts.append(verdict("time", seconds <= 3 and megabytes <= 64, label(case), f"{seconds:.2f} s, {megabytes:.1f} MB"))
@@ -143,7 +236,8 @@ def judge_bad(found):
     return [verdict("broken", not wrong, name, ", ".join(wrong))]
 
 
-HEADS = ["model", "V asked", "V got", "manif", "topol", "degen", "dup", "unused", "Q mean", "%<30", "Hausd %", "RMS %",
+HEADS = ["model", "V asked", "V got", "manif", "topol", "degen", "dup", "unused", "Q mean", "%<30", "least", "val 6 %",
+         "cells", "Hausd %", "RMS %",
          "flips", "doubt", "cross", "lines", "sec", "MB"]
 
 
@@ -154,18 +248,19 @@ def table_row(case):
     judged = found.get("judged")
     if found["code"] != 0:
         row += [report.get("status", f"exit {found['code']}") + (f" ({found['named']})" if "named" in found else "")]
-        row += [""] * 13
+        row += [""] * 16
     elif not judged:
-        row += [str(report.get("output_vertices", "?"))] + [""] * 13
+        row += [str(report.get("output_vertices", "?"))] + [""] * 16
     else:
         a, b, c = judged["original"], judged["remeshed"], judged["compare"]
         manifold = b["edge_manifold"] and b["vertex_manifold"] and b["consistently_oriented"]
         same = all(a[key] == b[key] for key in ("genus", "boundary_loops", "components"))
         cross = crossing_words(case) if "kinds" in found else ""
-        lines = found.get("own", {}).get("compare", {}).get("line_worst_ratio") if {"sharp", "boundary"} & case.bars else None
+        lines = own_compare(case).get("line_worst_ratio") if {"sharp", "boundary"} & case.bars else None
         row += [str(b["vertices"]), "yes" if manifold else "NO", "same" if same else "NO", str(b["degenerate_triangles"]),
                 str(b["duplicate_faces"]), str(b["isolated_vertices"]), f"{b['q_mean']:.3f}",
-                f"{b['pct_tri_min_angle_lt30']:.2f}", f"{c['hausdorff_pct']:.3f}", f"{c['rms_pct']:.4f}",
+                f"{b['pct_tri_min_angle_lt30']:.2f}", f"{b['angle_min']:.1f}", f"{b['valence6_pct']:.1f}",
+                f"{b['voronoi_area_cv']:.3f}", f"{c['hausdorff_pct']:.3f}", f"{c['rms_pct']:.4f}",
                 str(c["flipped_triangles_robust"]), str(c["flipped_triangles"]),
                 cross, "" if lines is None else f"{lines:.2f}"]
     return row + [f"{report.get('seconds', found['wall']):.2f}", f"{report.get('arena_bytes', 0) / 1048576:.1f}"]
@@ -187,8 +282,10 @@ def summarize(verdicts, bars):
             continue
         wrong = [v for v in mine if not v["good"]]
         print(f"{'BAD' if wrong else 'ok '} {bar}: {len(mine) - len(wrong)} of {len(mine)}: {text}")
-        for v in wrong:
-            print(f"      {v['case']}: {v['detail']}" if v["detail"] else f"      {v['case']}")
+        for v in mine:
+            if not v["good"] or v["shown"]:
+                mark = "BAD" if v["shown"] and not v["good"] else "   "
+                print(f"  {mark} {v['case']}: {v['detail']}" if v["detail"] else f"      {v['case']}")
     failed = sum(not v["good"] for v in verdicts)
     print(f"{len(verdicts) - failed} passed, {failed} failed")
     return 1 if failed or not verdicts else 0

@@ -1,6 +1,6 @@
-"""The density that `--gamma G --smooth N` wishes for, computed apart from the library. Used by check_models.py.
+"""The density that was wished for, computed apart from the library. Used by check_models.py.
 
-Mean curvature after Meyer, Desbrun, Schroeder and Barr (2003): the normal component of half the cotangent sum over the
+For `--gamma G --smooth N`: mean curvature after Meyer, Desbrun, Schroeder and Barr (2003): the normal component of half the cotangent sum over the
 mixed area, free of scale by the diagonal, held in [1, 256], to the power gamma; then N averagings over faces by area.
 Only for models without kept lines, where a vertex has one value.
 """
@@ -83,8 +83,8 @@ def wished_density(path, gamma, passes):
     """One number for each vertex of the file."""
     positions, triangles = read_mesh(path)
     used = [positions[v] for v in {v for t in triangles for v in t}]
-    low, high = ([pick(p[i] for p in used) for i in range(3)] for pick in (min, max))
-    diagonal = dist(low, high)
+    bounds = box(used)
+    diagonal = dist(bounds[:3], bounds[3:])
     values = [min(256.0, max(1.0, diagonal * c)) ** gamma for c in curvatures(positions, triangles)]
     areas = []
     for a, b, c in triangles:
@@ -93,3 +93,20 @@ def wished_density(path, gamma, passes):
     for _ in range(passes):
         values = smooth(values, triangles, areas)
     return values
+
+
+def box(positions):
+    return [pick(p[i] for p in positions) for pick in (min, max) for i in range(3)]
+
+
+def graded_density(path, ratio=16):
+    """Grows by this ratio from one end of the model to the other, evenly in its logarithm, along its longest side."""
+    positions, _ = read_mesh(path)
+    bounds = box(positions)
+    sides = [bounds[3 + i] - bounds[i] for i in range(3)]
+    axis = next(i for i in range(3) if sides[i] >= 0.999 * max(sides))
+    return [ratio ** ((p[axis] - bounds[axis]) / sides[axis]) for p in positions]
+
+
+def write_density(path, values):
+    path.write_text("\n".join(map(repr, values)) + "\n")

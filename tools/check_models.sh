@@ -1,8 +1,9 @@
 #!/bin/sh
 # Remeshes real and made models and has every result judged by other programs than the one that made it.
 #
-#   sh tools/check_models.sh                 every model, every bar
+#   sh tools/check_models.sh                 every model, every bar: hours
 #   sh tools/check_models.sh --ci            a subset for every change
+#   sh tools/check_models.sh --only even     one row: quality, seams, budgets ... (--help lists them)
 #   sh tools/check_models.sh --help          the choices: models, vertex counts, options
 #
 # Prints a table, then what passed and failed for each bar; the last line is `N passed, N failed`.
@@ -16,7 +17,7 @@ install_missing || exit 1
 case " $* " in
   *" --isolod "* | *" --help "* | *" -h "*) ;;
   *)
-    build_program || exit 1
+    build_program isolod_cli isolod_seams || exit 1
     set -- --isolod "$isolod" "$@"
     ;;
 esac

@@ -19,6 +19,7 @@ struct Comparison {
   double density_on_lines = 0, density_beside_lines = 0;
   measure::Crossings original_crossings, result_crossings;
   measure::CrossingKinds kinds;
+  measure::SmallAngles small;
   bool has_density = false;
   measure::DensityFit density;
 };
@@ -41,6 +42,9 @@ Comparison compare(const InputMesh& original, const InputMesh& result, const Arg
   comparison.original_crossings = measure::crossings(a);
   comparison.result_crossings = measure::crossings(b);
   comparison.kinds = measure::crossing_kinds(a, b, comparison.result_crossings);
+  measure::SmallAngleOptions small;
+  small.lines = sharp;
+  comparison.small = measure::small_angles(a, b, small);
   if (arguments.has("--density")) {
     const std::vector<double> wished = read_density_file(arguments.required_text("--density"), a.vertex_count);
     comparison.has_density = true;
@@ -100,6 +104,29 @@ void add_crossings(JsonWriter& json, const Comparison& comparison, bool each) {
   json.close_array();
 }
 
+void add_small_angles(JsonWriter& json, const measure::SmallAngles& small, bool each) {
+  json.add("small_triangles", static_cast<std::uint64_t>(small.triangles.size()));
+  json.add("small_near_cones", static_cast<std::uint64_t>(small.near_cones));
+  json.add("small_in_narrow_wedges", static_cast<std::uint64_t>(small.in_narrow_wedges));
+  json.add("small_beside_pins", static_cast<std::uint64_t>(small.beside_pins));
+  json.add("angle_min_off_cones", small.least_off_cones);
+  if (!each) return;
+  json.open_array("small_triangle_list");
+  for (const measure::SmallTriangle& t : small.triangles) {
+    json.open_object(nullptr);
+    json.add("triangle", static_cast<std::uint64_t>(t.triangle));
+    json.add("angle", t.angle);
+    json.add("x", t.place[0]);
+    json.add("y", t.place[1]);
+    json.add("z", t.place[2]);
+    json.add("near_cone", t.near_cone);
+    json.add("in_narrow_wedge", t.in_narrow_wedge);
+    json.add("beside_pin", t.beside_pin);
+    json.close_object();
+  }
+  json.close_array();
+}
+
 void print_json(const Arguments& arguments, const Comparison& comparison) {
   JsonWriter json;
   json.add("original_file", arguments.operand(0));
@@ -121,10 +148,13 @@ void print_json(const Arguments& arguments, const Comparison& comparison) {
   json.add("density_on_lines", comparison.density_on_lines);
   json.add("density_beside_lines", comparison.density_beside_lines);
   add_crossings(json, comparison, arguments.has("--crossings"));
+  add_small_angles(json, comparison.small, arguments.has("--small"));
   if (comparison.has_density) {
     json.add("density_spearman", comparison.density.spearman);
     json.add("density_slope", comparison.density.slope);
+    json.add("log_wish_deviation", comparison.density.log_wish_deviation);
     json.add("mass_variation", comparison.density.mass_variation);
+    json.add("mass_variation_all", comparison.density.mass_variation_all);
   }
   json.close_object();
   std::fputs(json.finish().c_str(), stdout);
@@ -162,6 +192,15 @@ void print_pairs(const measure::CrossingKinds& kinds) {
   }
 }
 
+void print_small(const measure::SmallAngles& small) {
+  std::printf("\ntriangles under 30 degrees: angle, place, cause\n");
+  for (const measure::SmallTriangle& t : small.triangles) {
+    std::printf("%7u %6.2f  %.6g %.6g %.6g %s%s%s\n", t.triangle, t.angle, t.place[0], t.place[1], t.place[2],
+                t.near_cone ? " cone" : "", t.in_narrow_wedge ? " narrow wedge" : "",
+                t.beside_pin ? " beside a pinned vertex" : "");
+  }
+}
+
 void print_fit(const Comparison& comparison) {
   const measure::Distances& distances = comparison.distances;
   const measure::LineReport& lines = comparison.lines;
@@ -175,10 +214,14 @@ void print_fit(const Comparison& comparison) {
   std::printf("density beside lines  %14.4f, %.4f on them\n", comparison.density_beside_lines,
               comparison.density_on_lines);
   std::printf("flipped triangles     %14zu, %zu of them for certain\n", distances.flipped, distances.flipped_robust);
+  std::printf("under 30 degrees      %14zu, %zu near cones, %zu between lines, %zu beside pinned vertices\n",
+              comparison.small.triangles.size(), comparison.small.near_cones, comparison.small.in_narrow_wedges,
+              comparison.small.beside_pins);
   if (comparison.has_density) {
     std::printf("density, rank order   %14.4f\n", comparison.density.spearman);
     std::printf("density, slope        %14.4f\n", comparison.density.slope);
-    std::printf("cell mass, variation  %14.4f\n", comparison.density.mass_variation);
+    std::printf("cell mass, variation  %14.4f, %.4f with the boundary's\n", comparison.density.mass_variation,
+                comparison.density.mass_variation_all);
   }
 }
 
@@ -191,6 +234,7 @@ const CommandRule& compare_rule() {
       2,
       "Measures how well a remeshed surface stands for its original: quality, distance, lines, flips, crossings.",
       {{"--crossings", nullptr, "list every pair of triangles that cross"},
+       {"--small", nullptr, "list every triangle under 30 degrees, with what of the original excuses it"},
        {"--features", "DEG", "edges sharper than this angle count as sharp; 40"},
        {"--density", "FILE", "wished density, one number for each vertex of the original"},
        {"--samples", "N", "points on each surface to measure distances from; 500000"},
@@ -208,6 +252,7 @@ int command_compare(const Arguments& arguments) {
     print_surfaces(comparison);
     print_fit(comparison);
     if (arguments.has("--crossings")) print_pairs(comparison.kinds);
+    if (arguments.has("--small")) print_small(comparison.small);
   }
   return exit_ok;
 }

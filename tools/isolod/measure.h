@@ -175,21 +175,83 @@ struct LineReport {
 
 LineReport line_report(const Surface& original, const Surface& result, const FeatureOptions& options = {});
 
+// ---- measure_small_angles.cpp
+
+struct SmallAngleOptions {
+  double angle = 30;         ///< a triangle is small where its least angle is under this, in degrees
+  double cone_defect = 60;   ///< an inner vertex of the original with a greater angle defect is a cone
+  double narrow_wedge = 45;  ///< two lines of the original with less surface between them at a corner, in degrees
+  double pin_distance =
+      0.02;  ///< how far a pinned vertex lies from the chord past it at least, percent of the diagonal
+  FeatureOptions lines{};
+};
+
+/// What of the original excuses a small angle; none of the three: nothing does.
+struct SmallTriangle {
+  std::uint32_t triangle = 0;
+  double angle = 0;
+  std::array<double, 3> place{};  ///< its centroid
+  bool near_cone = false;         ///< some point of it is within a mean edge length of the result from a cone, straight
+  bool in_narrow_wedge = false;   ///< a corner sits on the tip of a narrow wedge, and it lies in that wedge
+  bool beside_pin = false;        ///< a corner is a line's vertex that sits on a vertex of the original line
+};
+
+struct SmallAngles {
+  std::size_t near_cones = 0, in_narrow_wedges = 0;
+  std::size_t beside_pins = 0;   ///< and in no narrow wedge
+  double least_off_cones = 180;  ///< the least angle of the triangles that are near no cone
+  std::vector<SmallTriangle> triangles{};
+};
+
+SmallAngles small_angles(const Surface& original, const Surface& result, const SmallAngleOptions& options = {});
+
+// ---- measure_seams.cpp
+
+/// A straight piece of a curve on the original.
+using Segment = std::array<std::array<double, 3>, 2>;
+
+struct SeamOptions {
+  FeatureOptions lines{};         ///< what lies within two rings of the result's own lines counts nowhere
+  double follow_distance = 0.15;  ///< an edge follows a seam where both ends are so near, in mean edge lengths
+};
+
+struct SeamGroup {
+  std::size_t triangles = 0, vertices = 0;
+  double q_mean = 0;
+  double valence_6 = 0;       ///< percent of the vertices
+  double cell_variation = 0;  ///< of the cells' areas
+};
+
+struct SeamFit {
+  SeamGroup near, rest;
+  double length = 0;              ///< of the seams, in mean edge lengths of the result
+  std::size_t following = 0;      ///< edges of the result that follow a seam
+  std::size_t longest_chain = 0;  ///< the most of them in a row
+};
+
+/// Whether the result still shows curves that its samples once lay on. The first ring are the triangles around the
+/// corners of every triangle that a curve crosses, the second those around the first; near are both.
+SeamFit seam_fit(const Surface& result, const std::vector<Segment>& seams, const SeamOptions& options = {});
+
 // ---- measure_density.cpp
 
+/// The cell of a vertex is what of its triangles is nearer to it than to their other corners: each triangle is cut
+/// exactly by the perpendicular bisectors of its edges. Its mass is the integral of the wished density over it, its
+/// share the vertex's total angle over 2 pi: 1 inside, about a half on a smooth boundary.
 struct DensityFit {
   double spearman = 0;            ///< rank correlation of wished and realised density over the vertices of the result
-  double slope = 0;               ///< of log realised over log wished
-  double mass_variation = 0;      ///< standard deviation over mean of the cells' masses, inner vertices
-  double mass_variation_all = 0;  ///< the same for all vertices, masses divided by their share (angle over 2 pi)
+  double slope = 0;               ///< of log realised over log wished; without meaning where the wish hardly varies
+  double log_wish_deviation = 0;  ///< standard deviation of log wished over the vertices: how much the wish varies
+  double mass_variation = 0;  ///< standard deviation over mean of the cells' masses over their shares, inner vertices
+  double mass_variation_all = 0;  ///< the same for all vertices
 };
 
 /// wished: a density for each vertex of the original, up to scale; linear between, looked up at the nearest point.
-/// Realised is share over Voronoi area, where the share is the vertex's total angle over 2 pi.
+/// Realised is share over cell area; it is compared with the wish at the vertex.
 DensityFit density_fit(const Surface& original, const std::vector<double>& wished, const Surface& result);
 
 /// Where a uniform density was wished for: the density within so many rings of edges around the result's sharp and
-/// boundary lines, over the density elsewhere. Density is the sum of the shares over the sum of the Voronoi areas. 0
+/// boundary lines, over the density elsewhere. Density is the sum of the shares over the sum of the cells' areas. 0
 /// where there are no lines, or nothing lies beside them or elsewhere.
 double density_beside_lines(const Surface& result, const FeatureOptions& options = {}, int rings = 2);
 

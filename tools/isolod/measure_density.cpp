@@ -1,6 +1,7 @@
 // Whether the vertices lie as densely as was wished: ranks, the slope of the logarithms, the cells' masses, and whether
 // lines make a difference.
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "measure_parts.h"
@@ -9,46 +10,35 @@ namespace measure {
 
 namespace {
 
-/// The wished density at every vertex of the result: linear over the original triangle that is nearest.
-std::vector<double> look_up(const Surface& original, const std::vector<double>& wished, const Surface& result) {
-  const BoxTree tree = triangle_tree(original);
-  std::vector<double> found(result.vertex_count);
-  for (std::uint32_t v = 0; v < result.vertex_count; ++v) {
-    const Near near = tree.nearest(position(result, v));
-    const Corners c = corners(original, near.index);
+/// The wished density anywhere: linear over the original triangle that is nearest.
+class Wish {
+ public:
+  Wish(const Surface& original, const std::vector<double>& wished)
+      : original_(original), wished_(wished), tree_(triangle_tree(original)) {
+    is_even_ = std::adjacent_find(wished.begin(), wished.end(), std::not_equal_to<>()) == wished.end();
+  }
+
+  double at(Vector p) {
+    if (is_even_) return wished_[0];
+    const Near near = tree_.nearest(p, hint_);
+    hint_ = near.index;
+    const Corners c = corners(original_, near.index);
     double sum = 0, weights = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double w = length(cross(c[(k + 1) % 3] - near.point, c[(k + 2) % 3] - near.point));
-      sum += w * wished[corner(original, near.index, k)];
+      sum += w * wished_[corner(original_, near.index, k)];
       weights += w;
     }
-    found[v] = weights > 0 ? sum / weights : wished[corner(original, near.index, 0)];
+    return weights > 0 ? sum / weights : wished_[corner(original_, near.index, 0)];
   }
-  return found;
-}
 
-struct Cells {
-  std::vector<double> area, mass, share;
+ private:
+  const Surface& original_;
+  const std::vector<double>& wished_;
+  BoxTree tree_;
+  std::uint32_t hint_ = no_index;
+  bool is_even_ = false;
 };
-
-/// The mass of a corner's part: its Voronoi area times the mean of the linear density over a third of the triangle.
-Cells measure_cells(const Surface& s, const std::vector<double>& density) {
-  const std::vector<double> zeros(s.vertex_count, 0.0);
-  Cells cells{zeros, zeros, zeros};
-  for (std::size_t t = 0; t < s.triangle_count; ++t) {
-    const Corners c = corners(s, t);
-    const std::array<double, 3> area = corner_areas(c);
-    double whole = 0;
-    for (std::size_t k = 0; k < 3; ++k) whole += density[corner(s, t, k)];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = corner(s, t, k);
-      cells.area[v] += area[k];
-      cells.mass[v] += area[k] * (7 * whole + 15 * density[v]) / 36;
-      cells.share[v] += angle_between(c[(k + 1) % 3] - c[k], c[(k + 2) % 3] - c[k]) / 360;
-    }
-  }
-  return cells;
-}
 
 /// 1 for each vertex that so many edges or fewer lead to from a line.
 std::vector<char> beside_lines(const Surface& s, const FeatureOptions& options, int rings) {
@@ -108,21 +98,23 @@ double spearman(const std::vector<double>& a, const std::vector<double>& b) {
 DensityFit density_fit(const Surface& original, const std::vector<double>& wished, const Surface& result) {
   DensityFit fit;
   if (original.triangle_count == 0 || wished.size() != original.vertex_count) return fit;
-  const std::vector<double> density = look_up(original, wished, result);
-  const Cells cells = measure_cells(result, density);
+  Wish wish_at(original, wished);
+  const std::vector<Cell> cells = clipped_cells(result, [&](Vector p) { return wish_at.at(p); });
   const std::vector<char> inner = inner_vertices(result, EdgeTable(result));
   std::vector<double> wish, real, log_wish, log_real, mass, inner_mass;
-  for (std::size_t v = 0; v < result.vertex_count; ++v) {
-    if (!(cells.area[v] > 0) || !(density[v] > 0)) continue;
-    wish.push_back(density[v]);
-    real.push_back(cells.share[v] / cells.area[v]);
+  for (std::uint32_t v = 0; v < result.vertex_count; ++v) {
+    const double density = wish_at.at(position(result, v));
+    if (!(cells[v].area > 0) || !(density > 0)) continue;
+    wish.push_back(density);
+    real.push_back(cells[v].share / cells[v].area);
     log_wish.push_back(std::log(wish.back()));
     log_real.push_back(std::log(real.back()));
-    mass.push_back(cells.mass[v] / cells.share[v]);
+    mass.push_back(cells[v].mass / cells[v].share);
     if (inner[v] != 0) inner_mass.push_back(mass.back());
   }
   fit.spearman = spearman(wish, real);
   fit.slope = slope_of(log_wish, log_real);
+  fit.log_wish_deviation = spread(log_wish).deviation;
   fit.mass_variation = spread(inner_mass).variation;
   fit.mass_variation_all = spread(mass).variation;
   return fit;
@@ -130,12 +122,12 @@ DensityFit density_fit(const Surface& original, const std::vector<double>& wishe
 
 double density_beside_lines(const Surface& result, const FeatureOptions& options, int rings) {
   const std::vector<char> beside = beside_lines(result, options, rings);
-  const Cells cells = measure_cells(result, std::vector<double>(result.vertex_count, 1.0));
+  const std::vector<Cell> cells = clipped_cells(result, [](Vector) { return 1.0; });
   std::array<double, 2> share{}, area{};
   for (std::size_t v = 0; v < result.vertex_count; ++v) {
     const std::size_t side = beside[v] != 0 ? 1 : 0;
-    share[side] += cells.share[v];
-    area[side] += cells.area[v];
+    share[side] += cells[v].share;
+    area[side] += cells[v].area;
   }
   if (!(area[0] > 0) || !(area[1] > 0)) return 0;
   return share[1] / area[1] / (share[0] / area[0]);

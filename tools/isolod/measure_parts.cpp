@@ -29,6 +29,12 @@ EdgeTable::EdgeTable(const Surface& s) {
   }
 }
 
+double mean_edge_length(const Surface& s) {
+  std::vector<double> lengths;
+  for (const Edge& e : EdgeTable(s).edges) lengths.push_back(length(position(s, e.b) - position(s, e.a)));
+  return spread(lengths).mean;
+}
+
 std::vector<char> inner_vertices(const Surface& s, const EdgeTable& table) {
   std::vector<char> inner(s.vertex_count, 0);
   for (const Edge& e : table.edges) inner[e.a] = inner[e.b] = 1;
@@ -78,7 +84,8 @@ Spread spread(const std::vector<double>& values) {
   result.mean /= double(values.size());
   double squares = 0;
   for (double x : values) squares += squared(x - result.mean);
-  result.variation = result.mean != 0 ? std::sqrt(squares / double(values.size())) / result.mean : 0;
+  result.deviation = std::sqrt(squares / double(values.size()));
+  result.variation = result.mean != 0 ? result.deviation / result.mean : 0;
   return result;
 }
 

@@ -71,6 +71,19 @@ std::vector<char> inner_vertices(const Surface& surface, const EdgeTable& table)
 /// The Voronoi area of each corner of a triangle; where it is obtuse, halves and quarters of the whole.
 std::array<double, 3> corner_areas(const Corners& c);
 
+/// What of the surface is nearer to a vertex than to any other of its triangles.
+struct Cell {
+  double area = 0;
+  double mass = 0;   ///< the integral of the density
+  double share = 0;  ///< the vertex's total angle over 2 pi
+};
+
+/// Each triangle is cut by the perpendicular bisectors of its edges, exactly also where it is obtuse, and each of its
+/// corners gets its part. The density is asked for at the parts' corners and centroids.
+std::vector<Cell> clipped_cells(const Surface& surface, const std::function<double(Vector)>& density);
+
+double mean_edge_length(const Surface& surface);
+
 struct Box {
   Vector low = {1e300, 1e300, 1e300}, high = {-1e300, -1e300, -1e300};
 
@@ -119,7 +132,7 @@ Vector closest_on_triangle(Vector p, const Corners& c);
 void in_parallel(int threads, int pieces, const std::function<void(int)>& call);
 
 struct Spread {
-  double mean = 0, variation = 0;  // the standard deviation over the mean
+  double mean = 0, deviation = 0, variation = 0;  // variation: the standard deviation over the mean
 };
 Spread spread(const std::vector<double>& values);
 

@@ -17,8 +17,8 @@ BARS = {
     "near": "fandisk: Hausdorff <= 0.19 %, RMS <= 0.0075 %; bunny, kitten, gargoyle: both at most 1.05 times CGAL's",
     "mass": "cell masses over their shares vary by <= 5 %; slope of realised over wished density 1 +- 0.02",
     "handles": "10, 50, 150 handles, 500 components, a tube 200:1, 401 loops: no flipped triangle at 20,000",
-    "seams": "near former seams as elsewhere and as near seams that never were: Q mean within 0.003, valence 6 within 1 "
-             "point, cells' variation within 10 %; no longer chains of edges along them",
+    "seams": "near former seams less the rest, and that less the same along seams that never were: Q mean within 0.003, "
+             "valence 6 within 1 point, cells' variation within 10 %; no longer chains of edges along them",
     "budgets": "every V from 1 to 300 exact and valid, or refused below the ceiling; the number named works, one less not",
     "counts": "20 counts up to four times the input's: exact and valid, or refused as above",
     "broken": "a clean error or a repair, under 10 s, in memory of a small multiple of the file",

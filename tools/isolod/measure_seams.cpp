@@ -19,8 +19,11 @@ struct Band {
     for (const Edge& e : table.edges) {
       if (ring_0[e.a] != 0 || ring_0[e.b] != 0) vertex[e.a] = vertex[e.b] = 1;
     }
+    triangle.assign(s.triangle_count, 0);
     for (std::size_t t = 0; t < s.triangle_count; ++t) {
-      triangle.push_back(vertex[corner(s, t, 0)] | vertex[corner(s, t, 1)] | vertex[corner(s, t, 2)]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (vertex[corner(s, t, k)] != 0) triangle[t] = 1;
+      }
     }
   }
 };
@@ -83,6 +86,7 @@ class Chains {
 void find_chains(const Surface& s, const EdgeTable& table, const std::vector<Segment>& seams,
                  const std::vector<char>& on_line, double most, SeamFit& fit) {
   std::vector<Corners> primitives;
+  primitives.reserve(seams.size());
   for (const Segment& seam : seams) primitives.push_back({vector_of(seam[0]), vector_of(seam[1]), vector_of(seam[1])});
   const BoxTree tree(std::move(primitives));
   std::vector<char> is_near(s.vertex_count, 0);

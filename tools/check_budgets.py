@@ -1,5 +1,5 @@
-"""Every count of vertices from the least on: an exact and valid mesh, or a refusal that names a number that works. Used by
-check_models.py."""
+"""Every count of vertices from the least on: an exact and valid mesh, or a refusal that names a number that works.
+Used by check_models.py."""
 
 import json
 import subprocess
@@ -44,8 +44,8 @@ class Budgets:
         result, report = self.stem.with_suffix(".off"), self.stem.with_suffix(".json")
         for path in (result, report):
             path.unlink(missing_ok=True)
-        code, errors, _ = run_limited([self.args.isolod, "remesh", str(self.path), "--vertices", str(vertices), "--quiet",
-                                       *self.options, "--report", str(report), "-o", str(result)], 600)
+        command = [self.args.isolod, "remesh", str(self.path), "--vertices", str(vertices), "--quiet", *self.options]
+        code, errors, _ = run_limited([*command, "--report", str(report), "-o", str(result)], 600)
         said = read_json(report)
         if code != 0 and said.get("status") == "budget_too_small" and not result.exists():
             return "refused", said["status_value"]

@@ -1,7 +1,8 @@
 """The density that was wished for, computed apart from the library. Used by check_models.py.
 
-For `--gamma G --smooth N`: mean curvature after Meyer, Desbrun, Schroeder and Barr (2003): the normal component of half the cotangent sum over the
-mixed area, free of scale by the diagonal, held in [1, 256], to the power gamma; then N averagings over faces by area.
+For `--gamma G --smooth N`: mean curvature after Meyer, Desbrun, Schroeder and Barr (2003): the normal component of half
+the cotangent sum over the mixed area, free of scale by the diagonal, held in [1, 256], to the power gamma; then N
+averagings over faces by area.
 Only for models without kept lines, where a vertex has one value.
 """
 

@@ -1,6 +1,6 @@
 """Whether the seams of the first mesh still show in the result. Used by check_models.py.
 
-`isolod_seams` compares what lies within two rings of a former seam with the rest, and with what lies beside seams that the
+`isolod_seams` compares what lies within two rings of a former seam with the rest, and does the same with seams that the
 result never had: those of other atlases of the same surface (tools/seams says how they are made).
 """
 

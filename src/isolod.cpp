@@ -77,7 +77,9 @@
 #include "relax/frames.cpp"
 #include "relax/mend_flat.cpp"
 #include "relax/relaxation.cpp"
+#include "relax/space_flip.cpp"
 #include "relax/split_edges.cpp"
+#include "relax/thin_out.cpp"
 
 #include "pipeline/charting.cpp"
 #include "pipeline/first_mesh.cpp"

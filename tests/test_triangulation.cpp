@@ -77,7 +77,7 @@ bool edit(Editable& mesh, Random& random, std::string& name) {
   Triangulation& t = mesh.t;
   const HalfedgeId h = mesh.any_halfedge(random);
   const VertexId v = t.mesh.origin[h];
-  switch (random.below(6)) {
+  switch (random.below(7)) {
     case 0:
       name = "flip";
       if (!can_flip(t, h)) return false;
@@ -106,6 +106,11 @@ bool edit(Editable& mesh, Random& random, std::string& name) {
       name = "remove_boundary_vertex";
       if (mesh.valence(v) != 1 || t.mesh.is_boundary(next(t.mesh.outgoing[v]))) return false;
       remove_boundary_vertex(t, v);
+      return true;
+    case 5:
+      name = "collapse";
+      if (support::live_faces(t) < 30 || !can_collapse(t, h)) return false;
+      collapse(t, h);
       return true;
     default: {
       name = "fix";

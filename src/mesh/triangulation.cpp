@@ -177,6 +177,104 @@ void remove_boundary_vertex(Triangulation& t, VertexId v) {
   mesh.outgoing[v] = none<HalfedgeId>();
 }
 
+namespace {
+
+bool is_line(const Triangulation& t, HalfedgeId h) { return t.is_fixed(h) || t.mesh.is_boundary(h); }
+
+/// Visits the neighbours of v, each once, with whether a line leads there, until one is refused; tells whether none
+/// was.
+template <class Visit>
+bool all_neighbours(const Triangulation& t, VertexId v, Visit accepts) {
+  const HalfedgeId first = t.mesh.outgoing[v];
+  HalfedgeId h = first;
+  do {
+    if (!accepts(t.mesh.target(h), is_line(t, h))) return false;
+    const HalfedgeId last = prev(h);
+    h = t.mesh.twin[last];
+    if (h.is_none() && !accepts(t.mesh.origin[last], true)) return false;
+  } while (!h.is_none() && h != first);
+  return true;
+}
+
+std::uint32_t count_lines(const Triangulation& t, VertexId v) {
+  std::uint32_t count = 0;
+  all_neighbours(t, v, [&](VertexId, bool line) {
+    count += line;
+    return true;
+  });
+  return count;
+}
+
+/// Of a side h whose face is to go: whether the other two sides may become one edge.
+bool can_fold(const Triangulation& t, HalfedgeId h) {
+  const HalfedgeId a = next(h), b = prev(h);
+  return !is_line(t, a) || !is_line(t, b);
+}
+
+/// The other two sides of h's face become one edge.
+void fold(Triangulation& t, HalfedgeId h) {
+  const HalfedgeId a = next(h), b = prev(h), outer_a = t.mesh.twin[a], outer_b = t.mesh.twin[b];
+  const std::uint8_t bits = t.fixed[a] != 0 ? t.fixed[a] : t.fixed[b];
+  const VertexId apex = t.mesh.origin[b];
+  if (outer_a.is_none()) {
+    t.mesh.twin[outer_b] = outer_a;
+  } else {
+    join(t, outer_a, outer_b);
+    t.fixed[outer_a] = bits;
+    replace_outgoing(t, apex, b, outer_a);
+  }
+  if (!outer_b.is_none()) t.fixed[outer_b] = bits;
+  kill_face(t, face(h));
+}
+
+/// Any way out of v, turned to the one that the boundary rule wants.
+void set_outgoing(Halfedges& mesh, VertexId v, HalfedgeId any) {
+  HalfedgeId h = any;
+  while (!mesh.is_boundary(h)) {
+    h = next(mesh.twin[h]);
+    if (h == any) break;
+  }
+  mesh.outgoing[v] = h;
+}
+
+}  // namespace
+
+bool can_collapse(const Triangulation& t, HalfedgeId h) {
+  const Halfedges& mesh = t.mesh;
+  const HalfedgeId g = mesh.twin[h];
+  const VertexId a = mesh.origin[h], b = mesh.target(h), c = mesh.apex(h);
+  const VertexId d = g.is_none() ? none<VertexId>() : mesh.apex(g);
+  const std::uint32_t lines = count_lines(t, a);
+  if (lines != 0 && (lines != 2 || !is_line(t, h))) return false;
+  if (!can_fold(t, h) || (!g.is_none() && !can_fold(t, g)) || c == d) return false;
+  const bool meets_boundary = mesh.is_boundary(mesh.outgoing[a]) && mesh.is_boundary(mesh.outgoing[b]);
+  if (meets_boundary && !g.is_none()) return false;
+  const HalfedgeId beyond = mesh.twin[prev(h)];  // a c, from the other side
+  const HalfedgeId across = mesh.twin[next(h)];
+  if (!g.is_none() && !beyond.is_none() && !across.is_none() && mesh.apex(beyond) == d && mesh.apex(across) == d) {
+    return false;  // a tetrahedron
+  }
+  return all_neighbours(t, a,
+                        [&](VertexId v, bool) { return v == b || v == c || v == d || !are_adjacent(mesh, b, v); });
+}
+
+void collapse(Triangulation& t, HalfedgeId h) {
+  Halfedges& mesh = t.mesh;
+  const HalfedgeId g = mesh.twin[h];
+  const VertexId a = mesh.origin[h], b = mesh.target(h);
+  const HalfedgeId first = mesh.outgoing[a];
+  HalfedgeId out = first;
+  do {
+    mesh.origin[out] = b;
+    out = mesh.turn_left(out);
+  } while (!out.is_none() && out != first);
+  const HalfedgeId left = mesh.twin[prev(h)], right = mesh.twin[next(h)];
+  fold(t, h);
+  if (!g.is_none()) fold(t, g);
+  set_outgoing(mesh, b, left.is_none() ? next(right) : left);
+  mesh.outgoing[a] = none<HalfedgeId>();
+}
+
 Status compact(Triangulation& t, Span<const VertexId> new_number, std::size_t vertex_count, Arena& arena) {
   const ScratchScope scope(arena);
   Halfedges& mesh = t.mesh;

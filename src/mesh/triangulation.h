@@ -43,6 +43,17 @@ void remove_inner_vertex(Triangulation& t, VertexId v);
 /// Takes out a vertex of one face on the boundary, and that face.
 void remove_boundary_vertex(Triangulation& t, VertexId v);
 
+/// Whether the origin of h may be merged into its target: the mesh stays an oriented 2-manifold of the same topology
+/// (the link condition of Dey, Edelsbrunner, Guha and Nekhayev 1999; the boundary counts as joined to one more vertex),
+/// and lines stay lines. A line's edges are fixed or on the boundary: a vertex without any may go to each neighbour,
+/// one on a line only along it, the end of a line or a meeting of several nowhere. No two lines are laid on each other,
+/// a closed one keeps three vertices, a closed surface four. O(valence^2).
+bool can_collapse(const Triangulation& t, HalfedgeId h);
+
+/// Merges the origin of h into its target, where `can_collapse` says so. The faces beside h are dead afterwards. What
+/// becomes of h's two other sides keeps the flag of the one that was fixed. O(valence).
+void collapse(Triangulation& t, HalfedgeId h);
+
 /// Closes the gaps that dead faces left and renumbers vertices by `new_number` (none: dropped), in place.
 /// `vertex_count` live vertices must have the numbers 0 to vertex_count - 1. O(faces) time, 4 bytes a face of scratch.
 Status compact(Triangulation& t, Span<const VertexId> new_number, std::size_t vertex_count, Arena& arena);

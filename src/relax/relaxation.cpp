@@ -4,6 +4,7 @@
 #include "base/sort.h"
 #include "plane/voronoi_cell.h"
 #include "relax/descent.h"
+#include "relax/space_flip.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -235,17 +236,6 @@ void Relaxation::flip_around(VertexId v) {
   }
 }
 
-/// Delaunay by angles, with the two faces unfolded about their edge.
-bool Relaxation::wants_flip_in_space(HalfedgeId h) const {
-  const Halfedges& mesh = mesh_->mesh;
-  const HalfedgeId g = mesh.twin[h];
-  const auto at = [&](VertexId v) { return position_of(*surface_, samples_, sample(v)); };
-  const Vec3 a = at(mesh.origin[h]), b = at(mesh.origin[g]), c = at(mesh.apex(h)), d = at(mesh.apex(g));
-  const bool is_convex = !sum_over_straight(angle_at(a, b, c), angle_at(a, b, d)) &&
-                         !sum_over_straight(angle_at(b, a, c), angle_at(b, a, d));
-  return is_convex && sum_over_straight(angle_at(c, a, b), angle_at(d, a, b)) && can_flip(*mesh_, h);
-}
-
 /// Strips between two lines have no free sample to look after their edges.
 void Relaxation::flip_between_lines(HalfedgeId h) {
   const Halfedges& mesh = mesh_->mesh;
@@ -255,7 +245,7 @@ void Relaxation::flip_between_lines(HalfedgeId h) {
   for (VertexId v : corners) {
     if (!samples_.held[sample(v)]) return;
   }
-  if (!wants_flip_in_space(h)) return;
+  if (!wants_flip_in_space(*surface_, *mesh_, samples_, h)) return;
   flip(*mesh_, h);
   ++report_.flips;
 }

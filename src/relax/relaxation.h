@@ -53,7 +53,6 @@ class Relaxation {
   void flip_around(VertexId v);
   void move_and_flip(std::uint32_t frame);
   void flip_between_lines(HalfedgeId h);
-  bool wants_flip_in_space(HalfedgeId h) const;
   bool wants_flip(HalfedgeId h) const;
   /// Where a sample is in the selected frame, looked up once a frame and kept until the sample moves.
   struct Sight {

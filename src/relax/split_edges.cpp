@@ -3,6 +3,7 @@
 #include "base/sort.h"
 #include "base/status.h"
 #include "relax/descent.h"
+#include "relax/face_mass.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -145,24 +146,6 @@ Status split_edges(const Surface& surface, const Frames& frames, std::uint32_t s
 }
 
 namespace {
-
-double density_at(const Surface& surface, const SurfacePlace& place) {
-  return (1 - place.weight1 - place.weight2) * surface.density(halfedge(place.face, 0)) +
-         place.weight1 * surface.density(halfedge(place.face, 1)) +
-         place.weight2 * surface.density(halfedge(place.face, 2));
-}
-
-/// The density that a face of the mesh carries, roughly.
-double face_mass(const Surface& surface, const Halfedges& mesh, const Samples& samples, FaceId f) {
-  Vec3 corner[3];
-  double density = 0;
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    const SurfacePlace& place = samples.place[SampleId{mesh.origin[halfedge(f, k)].value}];
-    corner[k] = position_of(surface, place);
-    density += density_at(surface, place);
-  }
-  return density * length(cross(corner[1] - corner[0], corner[2] - corner[0]));
-}
 
 FaceId heaviest_face(const Surface& surface, const Halfedges& mesh, const Samples& samples) {
   FaceId heaviest{0};

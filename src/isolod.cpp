@@ -28,6 +28,7 @@
 
 #include "sample/backbones.cpp"
 #include "sample/calibrate.cpp"
+#include "sample/descent.cpp"
 #include "sample/diffuse.cpp"
 #include "sample/face_wishes.cpp"
 #include "sample/fluency.cpp"
@@ -67,12 +68,13 @@
 #include "plane/voronoi_cell.cpp"
 #include "plane/whole_system.cpp"
 
+#include "result/displacements.cpp"
 #include "result/feature_lines.cpp"
+#include "result/fit.cpp"
 #include "result/lift.cpp"
 #include "result/output.cpp"
 #include "result/stitch.cpp"
 
-#include "relax/descent.cpp"
 #include "relax/frame_ground.cpp"
 #include "relax/frames.cpp"
 #include "relax/mend_flat.cpp"

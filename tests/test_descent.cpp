@@ -1,9 +1,10 @@
 // The way downhill against the nearest of all faces.
-#include "relax/descent.h"
+#include "sample/descent.h"
 
 #include <cmath>
 
 #include "isolod/measure_parts.h"
+#include "sample/samples.h"
 #include "support/checker.h"
 #include "support/soup.h"
 #include "support/stages.h"
@@ -108,5 +109,89 @@ TEST_CASE("descent: over the rim of an open surface it stops at the rim") {
     const Vec3 p = position_of(s, descend(s, start, target));
     CHECK(p.x * p.x + p.y * p.y <= 1 + 1e-12);
     CHECK(distance(p, target) <= std::sqrt(tree.nearest({target.x, target.y, target.z}).squared_distance) + pulled);
+  }
+}
+
+TEST_CASE("descent: the nearest place itself, of targets beside their start") {
+  for (const char* name : {"sphere", "torus", "head"}) {
+    CAPTURE(std::string(name));
+    const shapes::Shape shape = support::made(name, 2000);
+    Prepared piece(shape);
+    piece.features();
+    const Surface& s = piece.surface;
+    const measure::BoxTree tree = measure::triangle_tree(checker::surface_of(shape));
+    support::Random random(13);
+    int exact = 0;
+    for (int i = 0; i < 300; ++i) {
+      const FaceId f{random.below(s.mesh.face_count())};
+      const double size = std::sqrt(length(area_vector(s, f)));
+      const Vec3 target = centroid(s, f) + 0.2 * size * random_direction(random);
+      FaceId start = f;
+      for (int step = 0; step < 3; ++step) start = face(s.mesh.twin[halfedge(start, random.below(3))]);
+      const SurfacePlace place = find_nearest(s, start, target);
+      CHECK((place.weight1 >= 0 && place.weight2 >= 0 && place.weight1 + place.weight2 <= 1 + 1e-15));
+      const double nearest = std::sqrt(tree.nearest({target.x, target.y, target.z}).squared_distance);
+      const double found = distance(position_of(s, place), target);
+      CHECK(found >= nearest - 1e-12);
+      exact += found <= nearest + 1e-12;
+    }
+    CHECK(exact >= 297);  // a fold of the surface may hold the search
+  }
+}
+
+TEST_CASE("descent: the nearest place is over a corner, over a side, or not over a feature") {
+  Prepared cube("cube", 12);
+  cube.features(0);
+  const Surface& s = cube.surface;
+  Vec3 low = s.position(VertexId{0}), high = low;
+  for (VertexId v : Ids<VertexId>(s.mesh.vertex_count())) {
+    const Vec3 p = s.position(v);
+    low = {smaller(low.x, p.x), smaller(low.y, p.y), smaller(low.z, p.z)};
+    high = {greater(high.x, p.x), greater(high.y, p.y), greater(high.z, p.z)};
+  }
+  for (FaceId start : Ids<FaceId>(s.mesh.face_count())) {
+    const Vec3 found = position_of(s, find_nearest(s, start, 2.0 * high - low));
+    CHECK(distance(found, high) < 1e-15);
+  }
+  Prepared kept("cube", 12);
+  kept.features(30);
+  for (FaceId start : Ids<FaceId>(kept.surface.mesh.face_count())) {
+    const SurfacePlace place = find_nearest(kept.surface, start, {3, 5, -7});
+    const Vec3 n = area_vector(kept.surface, start), m = area_vector(kept.surface, place.face);
+    CHECK(dot(n, m) > 0.999 * length(n) * length(m));
+  }
+}
+
+TEST_CASE("descent: on a line it goes on to the nearest edge, but not past a corner") {
+  Prepared cylinder("cylinder_open", 2000);
+  cylinder.features();
+  const Surface& s = cylinder.surface;
+  support::Random random(17);
+  for (int i = 0; i < 100; ++i) {
+    HalfedgeId start{random.below(s.mesh.halfedge_count())};
+    while (s.line[start] == 0) start = HalfedgeId{random.below(s.mesh.halfedge_count())};
+    const Vec3 from = s.position(s.mesh.origin[start]);
+    const Vec3 target = from + 0.7 * random_direction(random);
+    double nearest = 1e300;
+    for (HalfedgeId h : Ids<HalfedgeId>(s.mesh.halfedge_count())) {
+      if (s.line[h] == 0) continue;
+      const Vec3 a = s.position(s.mesh.origin[h]), side = s.position(s.mesh.target(h)) - a;
+      if (distance(a, from) > 2.5 && absolute(a.z - from.z) > 0.5) continue;
+      const double along = std::fmax(0, std::fmin(1, dot(target - a, side) / dot(side, side)));
+      if (absolute(a.z - from.z) < 1e-9) nearest = std::fmin(nearest, distance(a + along * side, target));
+    }
+    const LineFoot foot = find_nearest_on_line(s, start, target);
+    CHECK(s.line[foot.halfedge] != 0);
+    CHECK(foot.squared == doctest::Approx(nearest * nearest));
+    CHECK(distance(foot.point, target) == doctest::Approx(nearest));
+  }
+  Prepared cube("cube", 1200);
+  cube.features(30);
+  for (HalfedgeId h : Ids<HalfedgeId>(cube.surface.mesh.halfedge_count())) {
+    if (cube.surface.line[h] == 0) continue;
+    const Vec3 a = cube.surface.position(cube.surface.mesh.origin[h]);
+    const Vec3 b = cube.surface.position(cube.surface.mesh.target(h));
+    const LineFoot foot = find_nearest_on_line(cube.surface, h, {9, 11, 13});
+    CHECK(length(cross(b - a, foot.point - a)) < 1e-12);
   }
 }

@@ -12,6 +12,7 @@ BARS = {
     "crossings": "no more crossing pairs than the input has, or none but between sheets nearer than three spacings",
     "lines": "sharp and boundary lines within max(0.02 %, 1.2 sagittas) of edges, straight ones 1e-6, corners in place",
     "density": "where curvature sets the density: rank correlation of wished and realised >= 0.9",
+    "fit": "with --fit: RMS <= 0.7 of the same mesh unfitted, Hausdorff no greater, Q mean no more than 0.02 lower, no flip",
     "time": "bunny to 10,000 vertices in 3 s and 64 MB",
     "even": "smooth closed: Q mean >= 0.93, valence 6 >= 94 %, cells vary by <= 0.045, least angle >= 32 and none under "
             "30 but near cones; elephant, eight, duck, dragon: Q mean >= 0.92, valence 6 >= 92 %",
@@ -144,6 +145,23 @@ def judge_lines(case):
     return verdict("lines", not wrong, label(case), ", ".join(wrong))
 
 
+def judge_fit(case):
+    """Against the same mesh with its vertices on the surface."""
+    found, unfitted = case.result, case.result["unfitted"]
+    if not unfitted.get("judged"):
+        return verdict("fit", False, label(case), "no unfitted mesh to compare with")
+    mesh, compared = found["judged"]["remeshed"], found["judged"]["compare"]
+    old_mesh, old = unfitted["judged"]["remeshed"], unfitted["judged"]["compare"]
+    rms = compared["rms_pct"] / old["rms_pct"]
+    values = [("RMS ratio", rms, rms <= 0.7),
+              ("Hausdorff", compared["hausdorff_pct"], compared["hausdorff_pct"] <= old["hausdorff_pct"]),
+              ("Q mean", mesh["q_mean"], mesh["q_mean"] >= old_mesh["q_mean"] - 0.02),
+              ("flips", compared["flipped_triangles_robust"], compared["flipped_triangles_robust"] == 0),
+              ("same triangles", unfitted["same_triangles"], unfitted["same_triangles"])]
+    wrong = [f"{name} {value:.4g}" for name, value, good in values if not good]
+    return verdict("fit", not wrong, label(case), ", ".join(wrong))
+
+
 def crossing_words(case):
     """`0>7 (7 between sheets)`; where the judge that rounds counts otherwise, its numbers too."""
     kinds, rounded = case.result["kinds"], case.result.get("rounded")
@@ -200,6 +218,8 @@ def judge_case(case):
         verdicts.append(judge_crossings(case))
     if {"sharp", "boundary"} & case.bars:
         verdicts.append(judge_lines(case))
+    if "fit" in case.bars:
+        verdicts.append(judge_fit(case))
     if "density" in case.bars:
         spearman = own_compare(case).get("density_spearman")
         verdicts.append(verdict("density", spearman is not None and spearman >= 0.9, label(case), f"{spearman}"))

@@ -144,6 +144,23 @@ def measure_crossings(args, judge, case, found, known):
         found["rounded"] = (known[case.model], count(pair[1]))
 
 
+def listed_triangles(path):
+    """The lines of an OFF file's triangles."""
+    lines = path.read_text().splitlines()
+    return lines[2 + int(lines[1].split()[0]):]
+
+
+def measure_unfitted(args, judge, case, stem, found, out):
+    """The same without fitting: what the judges say of it, and whether it has the same triangles."""
+    options = [o for o in case.options if o != "--fit"]
+    plain = Case(case.model, case.path, case.original, case.vertices, options, {"topology"})
+    unfitted = remesh(args, plain, stem.with_name(stem.name + "-unfitted"), case.vertices)
+    if unfitted["code"] == 0:
+        measure(args, judge, plain, unfitted, {}, out)
+        unfitted["same_triangles"] = listed_triangles(unfitted["file"]) == listed_triangles(found["file"])
+    found["unfitted"] = unfitted
+
+
 def run_case(args, judge, case, out, known):
     tag = "-".join([case.model, str(case.vertices)] + [o.lstrip("-") for o in case.options])
     stem = out / tag.replace("/", "_").replace(".", "_")
@@ -153,5 +170,7 @@ def run_case(args, judge, case, out, known):
         found["retry"] = remesh(args, case, stem.with_name(stem.name + "-named"), found["named"])["code"]
     if found["code"] == 0 and not args.no_judge:
         measure(args, judge, case, found, known, out)
+        if "fit" in case.bars:
+            measure_unfitted(args, judge, case, stem, found, out)
     case.result = found
     return judge_case(case)

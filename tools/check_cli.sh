@@ -164,6 +164,7 @@ chosen "--weight paper" weight paper
 chosen "--centroids exact" centroids exact
 chosen "--keep-seams --lloyd 3" remove_seams false
 chosen "--no-auto-smooth --corner 20" smooth_undersampled false
+chosen "--fit" fit true
 
 echo 1 >density.txt
 refuses "density of another mesh" 23 "density.txt: " "$isolod" remesh torus.off --vertices 700 --density density.txt -o x.off

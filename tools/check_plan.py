@@ -7,6 +7,7 @@ SMOOTH = ["cgal-bunny00", "gpjs-kitten", "gpjs-gargoyle", "made-sphere", "made-t
 SHARP = ["cgal-fandisk", "cgal-pinion", "cgal-part", "cgal-anchor", "cgal-joint", "cgal-rotor_small", "cgal-knot2",
          "made-bracket"]
 OPEN = ["cgal-mushroom", "cgal-head", "cgal-holes", "cgal-pig", "vhacd-pig", "made-plate"]
+FITTED = ["cgal-fandisk", "cgal-bunny00", "gpjs-gargoyle"]
 CURVED = ["cgal-fandisk", "cgal-elephant", "gpjs-kitten", "made-head"]
 BESIDE_PEER = ["cgal-bunny00", "gpjs-kitten", "gpjs-gargoyle"]
 WEIGHED = ["made-sphere", "made-head", "made-plate"]
@@ -21,6 +22,7 @@ ROWS = {
     "even": "closed models: quality, valences, cells, small angles",
     "small": "small triangles of models with sharp lines",
     "near": "distances, beside CGAL's",
+    "fit": "vertices placed where the distance is least",
     "mass": "the cells' masses and the density that was wished",
     "handles": "many handles, holes, components; a thin tube",
     "seams": "whether the seams of the first mesh show",
@@ -74,6 +76,11 @@ def all_cases(args, models):
             if vertices == 10000 and not options and not args.options:
                 bars = bars_by_default(name)
             yield Case(name, *files, vertices, options + more, bars)
+        if name in FITTED and args.features is None:
+            sharp = ["--features", "40"] if name in SHARP else []
+            for vertices in [v for v in counts if v in (1000, 10000)]:
+                yield Case(name, *files, vertices, ["--fit"] + sharp + more,
+                           {"topology", "fit"} | ({"sharp"} if sharp else set()))
         if 10000 in counts:
             yield from special_cases(args, name, files, more)
 

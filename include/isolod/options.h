@@ -85,6 +85,10 @@ struct Options {
   /// the rim of a sheet or the closed component would have too few vertices. False: it keeps three.
   bool close_boundaries = false;
 
+  /// Vertices leave the surface to where the distance between it and the mesh is least on the whole, from both sides:
+  /// for coarse levels of detail. Triangles, corners and straight lines stay as they are.
+  bool fit = false;
+
   bool weld = false;      ///< merge vertices at exactly equal positions first
   bool validate = false;  ///< check the whole result before it is handed out, also in unchecked builds
 };

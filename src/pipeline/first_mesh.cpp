@@ -330,6 +330,13 @@ Status step_lift(State& s, bool& done, std::uint64_t& units) {
     case 1:
       ISOLOD_TRY(s.arena->result(3 * s.samples.count(), s.positions));
       lift_samples(s.surface, s.samples, s.positions);
+      if (!s.options.fit) return {};
+      return s.fit.begin(s.surface, s.stitch.mesh(), s.samples, s.positions, *s.arena);
+    case 2:
+      if (s.fit.done()) return {};
+      units = elements_a_piece;
+      s.fit.step(*s.arena);
+      --s.piece;
       return {};
     default:
       done = true;

@@ -6,6 +6,7 @@
 #include "pipeline/charting.h"
 #include "pipeline/levels.h"
 #include "plane/lloyd.h"
+#include "result/fit.h"
 #include "result/stitch.h"
 #include "sample/calibrate.h"
 #include "sample/diffuse.h"
@@ -62,6 +63,7 @@ struct Remesher::State {
   Rates first_rates;  ///< of the first mesh
   Levels levels;
   Span<double> positions;
+  Fit fit;
   Span<std::uint32_t> triangles;
 
   SampledSurface sampled() const { return {&surface, &atlas, &backbones, &lines, places, chart_start, numbers}; }

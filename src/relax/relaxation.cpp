@@ -3,8 +3,8 @@
 #include "base/predicates.h"
 #include "base/sort.h"
 #include "plane/voronoi_cell.h"
-#include "relax/descent.h"
 #include "relax/space_flip.h"
+#include "sample/descent.h"
 
 namespace isolod {
 inline namespace v1 {

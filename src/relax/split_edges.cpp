@@ -2,8 +2,8 @@
 
 #include "base/sort.h"
 #include "base/status.h"
-#include "relax/descent.h"
 #include "relax/face_mass.h"
+#include "sample/descent.h"
 
 namespace isolod {
 inline namespace v1 {

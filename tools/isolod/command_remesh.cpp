@@ -51,6 +51,7 @@ Options options_from(const Arguments& arguments) {
   if (arguments.has("--keep-seams")) options.remove_seams = false;
   if (arguments.has("--no-auto-smooth")) options.smooth_undersampled = false;
   options.close_boundaries = arguments.has("--close-boundaries");
+  options.fit = arguments.has("--fit");
   options.weld = arguments.has("--weld");
   options.validate = true;
   return options;
@@ -108,6 +109,7 @@ const CommandRule& remesh_rule() {
        {"--smooth", "N", "low-pass passes over the density; 0"},
        {"--no-auto-smooth", nullptr, "no more passes where few vertices are asked for"},
        {"--lloyd", "N", "iterations of the relaxation; 40"},
+       {"--fit", nullptr, "vertices leave the surface where that lessens the distance; for few vertices"},
        {"--weld", nullptr, "merge vertices at exactly equal positions first"},
        {"--report", "FILE.json", "write what was done: stages, hashes, seconds, memory, repairs"},
        {"--pictures", "DIR", "draw the stages into this folder as SVG"},

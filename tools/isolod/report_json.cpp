@@ -35,6 +35,7 @@ void add_options(JsonWriter& json, const Options& options) {
   json.add("calibration", options.calibration == isolod::Calibration::paper ? "paper" : "corrected");
   json.add("weight", options.weight == isolod::LloydWeight::paper ? "paper" : "equal");
   json.add("centroids", options.centroids == isolod::Centroids::exact ? "exact" : "fast");
+  json.add("fit", options.fit);
   json.add("weld", options.weld);
   json.close_object();
 }

@@ -78,7 +78,7 @@ done
   echo "$made/torus.off"
   echo "$made/bracket.off --features 40"
   echo "$made/head.off --gamma 1 --smooth 5"
-  echo "$made/plate.off"
+  echo "$made/plate.off --fit"
   echo "$made/lattice.off"
   if [ -e "$folder/cgal-fandisk.off" ]; then
     echo "$folder/cgal-fandisk.off --features 40"

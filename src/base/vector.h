@@ -21,6 +21,11 @@ inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 inline double length(Vec3 a) { return square_root(dot(a, a)); }
 inline double distance(Vec3 a, Vec3 b) { return length(a - b); }
+/// Of length 1; as it is where it has none.
+inline Vec3 unit(Vec3 a) {
+  const double size = length(a);
+  return size > 0 ? (1 / size) * a : a;
+}
 inline Vec3 midpoint(Vec3 a, Vec3 b) { return 0.5 * (a + b); }
 
 /// Cosine and sine of an angle, times one positive number.

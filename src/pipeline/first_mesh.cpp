@@ -3,7 +3,6 @@
 #include "pipeline/stage_hashes.h"
 #include "pipeline/state.h"
 #include "relax/mend_flat.h"
-#include "result/feature_lines.h"
 #include "result/lift.h"
 #include "result/output.h"
 #include "sample/lloyd_line.h"
@@ -86,9 +85,8 @@ std::uint64_t least_budget(const State& s, const DensityIntegrals& integrals) {
 void plan_run(State& s, const DensityIntegrals& integrals, std::uint32_t most_splits) {
   const std::int64_t handles = std::int64_t{s.report.components} - integrals.euler_characteristic / 2;
   const std::int64_t least = least_first_count + 60 * (s.report.components + handles);
-  s.plan = plan_levels(s.options.vertex_count, integrals.euler_characteristic, most_splits,
-                       static_cast<std::uint32_t>(least));
-  s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
+  s.plan = plan_levels(integrals, s.options.vertex_count, most_splits, static_cast<std::uint32_t>(least));
+  s.first_rates = solve_rates(integrals, s.plan.first_count(), s.options.calibration);
 }
 
 /// The rates that the integrals come to, and what the run is made of.
@@ -96,8 +94,7 @@ Status set_rates(State& s) {
   const DensityIntegrals& integrals = s.integrate.integrals();
   s.report.corners = integrals.corner_count;
   s.rates = solve_rates(integrals, s.options.vertex_count, s.options.calibration);
-  s.has_lines = integrals.lines > 0;
-  plan_run(s, integrals, s.has_lines || !s.options.remove_seams ? 0 : LevelPlan::most_splits);
+  plan_run(s, integrals, s.options.remove_seams ? LevelPlan::most_splits : 0);
   if (s.rates.line > 0 && s.first_rates.line > 0) return {};
   return fail(Status::budget_too_small, Element::count, least_budget(s, integrals));
 }
@@ -173,7 +170,7 @@ void restart_finer(State& s) {
 }
 
 Status sample_all_lines(State& s, bool& done) {
-  const std::uint64_t budget = s.plan.first_count, nodes = s.backbones.node.count;
+  const std::uint64_t budget = s.plan.first_count(), nodes = s.backbones.node.count;
   const std::uint32_t room = budget > nodes ? static_cast<std::uint32_t>(budget - nodes) : 0;
   Status status = sample_lines(s.surface, s.backbones, s.first_rates.line, room, s.lines, *s.arena);
   if (status == Status::budget_too_small) status.value += nodes;
@@ -193,7 +190,7 @@ Status step_lines(State& s, bool& done, std::uint64_t& units) {
       if (s.options.calibration == Calibration::paper) {
         DensityIntegrals integrals = integrate_density(s.surface);  // once more: now with the seams
         integrals.corner_count = static_cast<std::uint32_t>(s.backbones.node.count);
-        s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
+        s.first_rates = solve_rates(integrals, s.plan.first_count(), s.options.calibration);
       }
       return sample_all_lines(s, done);
     default:
@@ -209,12 +206,12 @@ void count_samples(State& s) {
   report.backbones = static_cast<std::uint32_t>(s.backbones.count());
   report.surface_samples = static_cast<std::uint32_t>(s.places.count);
   report.feature_samples = 0;
-  for (std::uint8_t h : s.samples.held) report.feature_samples += h;
-  report.seam_samples = s.plan.first_count - report.feature_samples - report.surface_samples;
+  for (std::uint8_t h : s.samples.held) report.feature_samples += h != hold_none;
+  report.seam_samples = s.plan.first_count() - report.feature_samples - report.surface_samples;
 }
 
 Status begin_diffusion(State& s) {
-  const std::uint32_t surface_samples = s.plan.first_count - s.numbers.node_count - s.numbers.line_count;
+  const std::uint32_t surface_samples = s.plan.first_count() - s.numbers.node_count - s.numbers.line_count;
   ISOLOD_TRY(s.arena->result(surface_samples, s.places));
   ISOLOD_TRY(s.arena->result(s.atlas.chart_count() + 1, s.chart_start));
   s.before_diffuse = s.arena->mark();
@@ -247,7 +244,7 @@ std::size_t result_face_count(const State& s) {
     if (is_boundary(s.surface, s.backbones, b)) boundary += s.lines.interval_count(s.surface, s.backbones, b);
   }
   const std::int64_t faces =
-      2 * std::int64_t{s.plan.first_count} - boundary - 2 * s.integrate.integrals().euler_characteristic;
+      2 * std::int64_t{s.plan.first_count()} - boundary - 2 * s.integrate.integrals().euler_characteristic;
   return faces > 0 ? static_cast<std::size_t>(faces) : 0;
 }
 
@@ -264,7 +261,7 @@ void relax_sites(const State& s, std::uint32_t chart, Lloyd& lloyd) {
 }
 
 Status step_charts(State& s, bool& done, std::uint64_t& units) {
-  if (!s.stage_begun) ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.plan.first_count, *s.arena));
+  if (!s.stage_begun) ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.plan.first_count(), *s.arena));
   const ScratchScope scope(*s.arena);
   const std::size_t chart = s.piece++;
   FlatChart flat;
@@ -289,14 +286,11 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   switch (s.piece++) {
     case 0:
       return s.stitch.finish(*s.arena);
-    case 1:
+    default:
+      done = true;
       ISOLOD_TRY(gather_samples(s.sampled(), s.samples, *s.arena));
       count_samples(s);
       return {};
-    default:
-      done = true;
-      if (!s.options.remove_seams) return {};
-      return sample_features_anew(s.surface, s.options.weight, s.samples, *s.arena);
   }
 }
 

@@ -1,34 +1,45 @@
 #include "pipeline/levels.h"
 
 #include "base/status.h"
+#include "relax/insert.h"
+#include "relax/line_counts.h"
+#include "result/feature_lines.h"
 
 namespace isolod {
 inline namespace v1 {
 
 namespace {
-constexpr double most_homeless = 0.02;  // of the samples of a first level that is to be split
+
 constexpr std::uint32_t trial_iterations = 15;
+constexpr double most_bent = 0.002;       // of the samples of a first level that is to be split
+constexpr std::uint32_t loop_period = 10;  // iterations from one closing of the loop to the next
+constexpr std::uint32_t quiet_end = 5;     // iterations of a level behind the last one
+
+/// V by the calibration that counts triangles, for a line rate.
+double count_at(const DensityIntegrals& integrals, double line_rate) {
+  return samples_a_square * line_rate * line_rate * integrals.surface + 0.5 * line_rate * integrals.boundary +
+         static_cast<double>(integrals.euler_characteristic);
+}
+
 }  // namespace
 
-LevelPlan plan_levels(std::uint32_t vertex_count, std::int64_t euler_characteristic, std::uint32_t most_splits,
+LevelPlan plan_levels(const DensityIntegrals& integrals, std::uint32_t vertex_count, std::uint32_t most_splits,
                       std::uint32_t least_first) {
   LevelPlan plan;
-  std::int64_t factor = 1, first = vertex_count;
+  const double finest = solve_rates(integrals, vertex_count, Calibration::corrected).line;
+  double first_rate = finest;
   for (std::uint32_t splits = 1; splits <= most_splits; ++splits) {
-    const std::int64_t wider = 4 * factor;
-    const std::int64_t coarser = (std::int64_t{vertex_count} + (wider - 1) * euler_characteristic) / wider;
-    if (coarser < 1 || coarser < std::int64_t{least_first} || coarser - euler_characteristic <= 0) break;
-    factor = wider;
-    first = coarser;
+    const double rate = 0.5 * first_rate, count = count_at(integrals, rate);
+    const double on_lines = rate * integrals.lines + static_cast<double>(integrals.corner_count);
+    if (count < static_cast<double>(least_first) || 3 * on_lines > count) break;
+    first_rate = rate;
     plan.splits = splits;
   }
-  plan.first_count = static_cast<std::uint32_t>(first);
-  std::int64_t rest = std::int64_t{vertex_count} - (factor * first - (factor - 1) * euler_characteristic);
-  for (std::uint32_t level = 0; level <= plan.splits; ++level) {
-    plan.inserted[level] = static_cast<std::uint32_t>(rest / factor);
-    rest %= factor;
-    factor /= 4;
+  double rate = first_rate;
+  for (std::uint32_t level = 0; level < plan.splits; ++level, rate *= 2) {
+    plan.count[level] = static_cast<std::uint32_t>(count_at(integrals, rate));
   }
+  plan.count[plan.splits] = vertex_count;
   return plan;
 }
 
@@ -36,67 +47,123 @@ void Levels::begin(const LevelPlan& plan, const LevelOptions& options) {
   plan_ = plan;
   options_ = options;
   level_ = iteration_ = 0;
-  phase_ = Phase::begin_frames;
+  phase_ = Phase::features;
 }
 
 double Levels::share_done() const {
   double whole = 0, before = 0, cost = 1;
   for (std::uint32_t l = 0; l <= plan_.splits; ++l, cost *= 4) {
     const double iterations = l == plan_.splits ? options_.fine_iterations : options_.coarse_iterations;
-    if (l < level_) before += cost;
-    if (l == level_ && phase_ != Phase::begin_frames && phase_ != Phase::make_frames) {
-      before += cost * smaller(1, iteration_ / iterations);
-    }
-    whole += cost;
+    const double share = l < level_ ? 1 : l > level_ || phase_ != Phase::relax ? 0 : iteration_ / iterations;
+    before += cost * iterations * share;
+    whole += cost * iterations;
   }
   return before / whole;
+}
+
+double Levels::line_rate(std::uint32_t level) const {
+  double rate = options_.line_rate;
+  for (; level < plan_.splits; ++level) rate *= 0.5;
+  return rate;
+}
+
+/// Seams are lines no more.
+Status Levels::find_features(Surface& surface, Arena& arena) {
+  for (std::uint8_t& bits : surface.line) bits = bits & line_feature;
+  bool has_lines = false;
+  for (std::uint8_t bits : surface.line) has_lines = has_lines || bits != line_none;
+  features_ = {};
+  return has_lines ? chain_backbones(surface, features_, arena) : Status();
+}
+
+/// The number of samples on every feature that this level wishes, and their places.
+Status Levels::match_lines(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
+  if (features() == nullptr) return {};
+  if (level_ > 0) {
+    const ArenaMark mark = arena.mark();
+    LineSamples wished;
+    ISOLOD_TRY(sample_lines(surface, features_, line_rate(level_), plan_.count[level_], wished, arena));
+    ISOLOD_TRY(match_line_counts(surface, features_, wished, mesh, samples, arena));
+    arena.rewind_results(mark);
+  }
+  return sample_features_anew(surface, features_, {options_.weight, is_finest()}, samples, arena);
+}
+
+Status Levels::begin_split(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
+  std::size_t edges = 0;
+  for (HalfedgeId h : Ids<HalfedgeId>(mesh.mesh.halfedge_count())) {
+    edges += mesh.mesh.is_boundary(h) || h < mesh.mesh.twin[h];
+  }
+  LineChange change;
+  if (features() != nullptr) {
+    const ArenaMark mark = arena.mark();
+    const ScratchScope scope(arena);
+    LineSamples wished;
+    Riders riders;
+    ISOLOD_TRY(sample_lines(surface, features_, line_rate(level_ + 1), plan_.count[level_ + 1], wished, arena));
+    ISOLOD_TRY(collect_riders(surface, features_, samples, riders, arena));
+    change = change_after_split(surface, features_, riders, wished);
+    arena.rewind_results(mark);
+  }
+  const std::size_t split = samples.count() + edges, wanted = plan_.count[level_ + 1];
+  const std::size_t short_of = wanted > split ? wanted - split : 0;
+  return split_.begin(surface, features(), static_cast<std::uint32_t>(short_of + change.added + change.removed), mesh,
+                      samples, arena);
 }
 
 /// A piece of an iteration, and at its end what follows.
 void Levels::relax(std::size_t sample_count, Arena& arena) {
   if (!relaxation_.step()) return;
-  const bool finest = level_ == plan_.splits;
-  if (level_ == 0 && !finest && iteration_ == trial_iterations &&
-      relaxation_.report().homeless > most_homeless * static_cast<double>(sample_count)) {
+  if (level_ == 0 && !is_finest() && iteration_ == trial_iterations &&
+      relaxation_.report().bent > most_bent * static_cast<double>(sample_count)) {
     phase_ = Phase::unresolved;
     return;
   }
-  if (++iteration_ < (finest ? options_.fine_iterations : options_.coarse_iterations)) return;
+  const std::uint32_t last = is_finest() ? options_.fine_iterations : options_.coarse_iterations;
+  ++iteration_;
+  if (iteration_ % loop_period == 0 && iteration_ + quiet_end <= last) relaxation_.close_loop_next();
+  if (iteration_ < last) return;
   arena.rewind_scratch(scratch_);
-  phase_ = finest ? Phase::done : Phase::begin_split;
+  phase_ = is_finest() ? Phase::done : Phase::begin_split;
 }
 
-Status Levels::step(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
+Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
   switch (phase_) {
-    case Phase::begin_frames: {
-      FrameOptions options;
-      double coarseness = 1;
-      for (std::uint32_t l = level_; l < plan_.splits; ++l) coarseness *= 0.5;
-      options.line_rate = options_.line_rate * coarseness;
-      phase_ = Phase::make_frames;
-      return make_frames_.begin(surface, options, arena);
-    }
-    case Phase::make_frames:
-      if (!make_frames_.done()) return make_frames_.step(arena);
+    case Phase::features:
+      phase_ = Phase::lines;
+      return find_features(surface, arena);
+    case Phase::lines:
+      ISOLOD_TRY(match_lines(surface, mesh, samples, arena));
+      scratch_ = arena.mark();
+      phase_ = samples.count() > plan_.count[level_] ? Phase::thin : Phase::insert;
+      if (phase_ == Phase::insert) return {};
+      return thin_out_.begin(surface, {plan_.count[level_], true}, mesh, samples, arena);
+    case Phase::thin:
+      thin_out_.step();
+      if (!thin_out_.done()) return {};
       phase_ = Phase::insert;
-      return make_frames_.finish(frames_, arena);
+      ISOLOD_TRY(thin_out_.finish(arena));
+      arena.rewind_scratch(scratch_);
+      return {};
     case Phase::insert:
-      ISOLOD_TRY(insert_where_sparse(surface, frames_, plan_.inserted[level_], mesh, samples, arena));
+      phase_ = Phase::begin_relax;
+      return insert_where_sparse(surface, plan_.count[level_] - static_cast<std::uint32_t>(samples.count()), mesh,
+                                 samples, arena);
+    case Phase::begin_relax:
       phase_ = Phase::relax;
       iteration_ = 0;
-      scratch_ = arena.mark();
-      return relaxation_.begin(surface, frames_, mesh, samples, {options_.weight, 1.8}, arena);
+      return relaxation_.begin(surface, features(), mesh, samples, {options_.weight}, arena);
     case Phase::relax:
       relax(samples.count(), arena);
       return {};
     case Phase::begin_split:
       phase_ = Phase::split;
-      return split_.begin(surface, frames_, plan_.inserted[level_ + 1], mesh, samples, arena);
+      return begin_split(surface, mesh, samples, arena);
     case Phase::split:
       split_.step(arena);
       if (!split_.done()) return {};
       ++level_;
-      phase_ = Phase::begin_frames;
+      phase_ = Phase::lines;
       return {};
     case Phase::done:
     case Phase::unresolved:

@@ -1,60 +1,69 @@
 // Coarse to fine: the levels of a run, and the stage that climbs them.
 //
-// The first mesh is made at the coarsest level. Each level is relaxed in overlapping charts of its own; then every edge
-// is split, a few planned samples are put in where density is short, and the next level begins. The last one has
-// exactly V.
+// The first mesh is made at the coarsest level. Each level is relaxed star by star; then every edge is split, features
+// get the number of samples that the next level wishes, what the surface has too few or too many of is put in or taken
+// out, and the next level begins. The last one has exactly V.
 #pragma once
 
 #include "isolod/options.h"
 #include "relax/relaxation.h"
 #include "relax/split_edges.h"
+#include "relax/thin_out.h"
+#include "sample/calibrate.h"
 
 namespace isolod {
 inline namespace v1 {
 
-/// How many samples the first mesh has, and how many are put in when a level begins.
+/// How many samples each level has: the first mesh those of level 0, the last V.
 struct LevelPlan {
   static constexpr std::uint32_t most_splits = 12;
   std::uint32_t splits = 0;
-  std::uint32_t first_count = 0;
-  std::uint32_t inserted[most_splits + 1] = {};
+  std::uint32_t count[most_splits + 1] = {};
+
+  std::uint32_t first_count() const { return count[0]; }
 };
 
-/// As many splits, up to `most_splits`, as leave the first level at least `least_first` samples. On a closed surface a
-/// level of V samples gives 4 V - 3 chi.
-LevelPlan plan_levels(std::uint32_t vertex_count, std::int64_t euler_characteristic, std::uint32_t most_splits,
+/// As many splits, up to `most_splits`, as leave the first level at least `least_first` samples, a third of them at most
+/// on lines. Each level wishes for edges twice as long as the next.
+LevelPlan plan_levels(const DensityIntegrals& integrals, std::uint32_t vertex_count, std::uint32_t most_splits,
                       std::uint32_t least_first);
 
 struct LevelOptions {
   double line_rate = 0;  ///< R_f of the finest level
   LloydWeight weight = LloydWeight::equal;
-  std::uint32_t coarse_iterations = 40;
-  std::uint32_t fine_iterations = 20;
+  std::uint32_t coarse_iterations = 120;
+  std::uint32_t fine_iterations = 30;
 };
 
 /// A stage: begin, step until done.
 class Levels {
  public:
   void begin(const LevelPlan& plan, const LevelOptions& options);
-  /// Tries one frame, or does a piece of an iteration or of a split.
-  Status step(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
+  /// A piece of an iteration or of a split, one sample taken out, or a linear pass over the features.
+  Status step(Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   bool done() const { return phase_ == Phase::done; }
+  /// Whether the first level was given up because too many of its stars are folded up, and there is a finer one to start
+  /// from.
+  bool is_unresolved() const { return phase_ == Phase::unresolved; }
   /// Roughly, 0 to 1: a level costs four times what the one before did.
   double share_done() const;
-  /// Whether the first level was given up because too many of its samples have stars that no map holds, and there is a
-  /// finer one to start from.
-  bool is_unresolved() const { return phase_ == Phase::unresolved; }
 
  private:
-  enum class Phase : std::uint8_t { begin_frames, make_frames, insert, relax, begin_split, split, done, unresolved };
+  enum class Phase : std::uint8_t { features, lines, thin, insert, begin_relax, relax, begin_split, split, done, unresolved };
+  Status find_features(Surface& surface, Arena& arena);
+  Status match_lines(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
+  Status begin_split(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   void relax(std::size_t sample_count, Arena& arena);
+  bool is_finest() const { return level_ == plan_.splits; }
+  double line_rate(std::uint32_t level) const;
+  const Backbones* features() const { return features_.start.count > 1 ? &features_ : nullptr; }
 
   LevelPlan plan_;
   LevelOptions options_;
   Phase phase_ = Phase::done;
   std::uint32_t level_ = 0, iteration_ = 0;
-  MakeFrames make_frames_;
-  Frames frames_;
+  Backbones features_;
+  ThinOut thin_out_;
   Relaxation relaxation_;
   SplitEdges split_;
   ArenaMark scratch_;

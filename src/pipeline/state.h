@@ -57,7 +57,6 @@ struct Remesher::State {
   SampleNumbers numbers;
   Stitch stitch;
   Samples samples;
-  bool has_lines = false;
   LevelPlan plan;
   ArenaMark before_atlas;
   Rates first_rates;  ///< of the first mesh

@@ -1,304 +1,240 @@
 #include "relax/relaxation.h"
 
-#include "base/predicates.h"
-#include "base/sort.h"
-#include "plane/voronoi_cell.h"
-#include "relax/space_flip.h"
-#include "sample/descent.h"
+#include "base/elementary.h"
+#include "base/status.h"
+#include "relax/face_mass.h"
+#include "relax/slide.h"
+#include "sample/surface_walk.h"
 
 namespace isolod {
 inline namespace v1 {
 
 namespace {
 
-constexpr std::uint32_t most_neighbours = 30;
 constexpr std::uint32_t most_halvings = 3;
-constexpr std::uint8_t most_hosts = 8;
-
-SampleId sample(VertexId v) { return {v.value}; }
-VertexId vertex(SampleId s) { return {s.value}; }
+constexpr std::uint32_t flip_rounds = 2;
+constexpr double least_cosine = 0.1;     // between a face and its star, for it to count as not turned over
+constexpr double least_upright = 0.5;    // length of the sum of a star's area vectors over the sum of their lengths
+constexpr double most_of_interval = 0.3;  // that a sample slides at once
 
 }  // namespace
 
-/// A free sample and its neighbours in the plane, counterclockwise.
-struct Relaxation::Ring {
-  std::uint32_t count = 0;
-  Vec2 centre;
-  double weight = 0;
-  Vec2 point[most_neighbours];
-  double point_weight[most_neighbours];
-  bool line_after[most_neighbours];  // the edge from neighbour i to the next is a line
-
-  Vec2 following(std::uint32_t i) const { return point[i + 1 == count ? 0 : i + 1]; }
-  double following_weight(std::uint32_t i) const { return point_weight[i + 1 == count ? 0 : i + 1]; }
-  std::uint32_t positive_faces(Vec2 p) const {
-    std::uint32_t positive = 0;
-    for (std::uint32_t i = 0; i < count; ++i) positive += orient2d(p, point[i], following(i)) > 0;
-    return positive;
-  }
-  bool holds(Vec2 p) const { return positive_faces(p) == count; }
-  Vec2 mean() const {
-    Vec2 sum{0, 0};
-    for (std::uint32_t i = 0; i < count; ++i) sum = sum + point[i];
-    return (1.0 / count) * sum;
-  }
-};
-
-Status Relaxation::begin(const Surface& surface, const Frames& frames, Triangulation& mesh, const Samples& samples,
+Status Relaxation::begin(const Surface& surface, const Backbones* features, Triangulation& mesh, const Samples& samples,
                          const RelaxOptions& options, Arena& arena) {
   surface_ = &surface;
-  frames_ = &frames;
+  features_ = features;
   mesh_ = &mesh;
   samples_ = samples;
   options_ = options;
-  phase_ = Phase::homes;
+  phase_ = Phase::look;
   sweep_ = {};
-  ISOLOD_TRY(ground_.begin(surface, frames, arena));
-  std::size_t free_count = 0;
-  for (std::uint8_t h : samples.held) free_count += h == 0;
-  ISOLOD_TRY(arena.scratch(frames.frame.count + 1, start_));
-  ISOLOD_TRY(arena.scratch(free_count, free_));
-  ISOLOD_TRY(arena.scratch(free_count, resident_));
-  ISOLOD_TRY(arena.scratch(samples.held.count, target_));
-  ISOLOD_TRY(arena.scratch(samples.held.count, has_target_));
-  ISOLOD_TRY(arena.scratch(samples.held.count, sight_));
-  for (Sight& sight : sight_) sight.when = 0;
-  look_ = 0;
-  ISOLOD_TRY(arena.scratch(samples.held.count, guest_));
-  for (std::uint8_t& g : guest_) g = 0;
-  std::size_t i = 0;
-  for (SampleId s : Ids<SampleId>(samples.held.count)) {
-    if (!samples.held[s]) free_[i++] = s;
+  round_ = 0;
+  closes_loop_ = false;
+  ISOLOD_TRY(loop_.begin(mesh, samples, arena));
+  ISOLOD_TRY(tiles_.begin(surface, samples, arena));
+  ISOLOD_TRY(arena.scratch(samples.count(), is_bent_));
+  ISOLOD_TRY(arena.scratch(samples.count(), site_));
+  return arena.scratch(samples.count(), cell_);
+}
+
+void Relaxation::look(SampleId s) {
+  const double d = density_at(*surface_, samples_, s);
+  const double base = options_.weight == LloydWeight::equal ? d * d : d;
+  site_[s] = {position_of(*surface_, samples_, s), d, base * exponential(samples_.correction[s])};
+  cell_[s] = {{0, 0, 0}, 0, 0, 0};
+}
+
+namespace {
+
+/// The area vectors of the faces around a vertex, doubled: their sum, and the sum of their lengths.
+struct StarNormal {
+  Vec3 sum{0, 0, 0};
+  double size = 0;
+
+  StarNormal(const Halfedges& mesh, Span<const Site> site, VertexId v) {
+    const Vec3 p = site[v].position;
+    visit_outgoing(mesh, v, [&](HalfedgeId h) {
+      const Vec3 n = cross(site[mesh.target(h)].position - p, site[mesh.apex(h)].position - p);
+      sum = sum + n;
+      size += length(n);
+    });
   }
-  return {};
+};
+
+/// What is left of `way` in the plane across from `normal`.
+Vec3 flatten(Vec3 way, Vec3 normal) {
+  const double squared = dot(normal, normal);
+  return squared > 0 ? way - dot(way, normal) / squared * normal : way;
 }
 
-/// Where the star reaches out of the frame that holds its core, the frames of the neighbours are tried, one an
-/// iteration.
-std::uint32_t Relaxation::home(SampleId s) const {
-  SampleId host = s;
-  std::uint32_t k = 0;
-  visit_outgoing(mesh_->mesh, vertex(s), [&](HalfedgeId h) {
-    const SampleId neighbour = sample(mesh_->mesh.target(h));
-    if (++k == guest_[s] && !samples_.held[neighbour]) host = neighbour;
-  });
-  return frames_->core_of_face[samples_.place[host].face];
+}  // namespace
+
+/// The cell of a folded star begins anew: it comes from the surface.
+void Relaxation::look_for_bend(SampleId s) {
+  is_bent_[s] = 0;
+  if (samples_.held[s]) return;
+  const StarNormal star(mesh_->mesh, site_, vertex(s));
+  if (length(star.sum) >= least_upright * star.size) return;
+  is_bent_[s] = 1;
+  ++report_.bent;
+  cell_[s].moment = {0, 0, 0};
+  cell_[s].weight = 0;
 }
 
-void Relaxation::assign_homes() {
-  counting_sort<SampleId>(free_, resident_, start_, [&](SampleId s) { return home(s); });
-}
-
-void Relaxation::look_anew(std::uint32_t frame) {
-  ground_.select(frame);
-  ++look_;
-}
-
-const Relaxation::Sight& Relaxation::look_at(VertexId v) const {
-  Sight& sight = sight_[v];
-  if (sight.when == look_) return sight;
-  const FrameGround::LocalPlace place = ground_.find(samples_, sample(v));
-  sight.when = look_;
-  sight.is_there = !place.is_none();
-  if (!sight.is_there) return sight;
-  const double density = ground_.density(place);
-  sight.uv = ground_.uv(place);
-  sight.weight = options_.weight == LloydWeight::equal ? density * density : density;
-  return sight;
-}
-
-/// False where the star reaches out of the selected frame.
-bool Relaxation::gather(VertexId v, Ring& ring) const {
+/// Whether no more faces would be turned against the star than are now.
+bool Relaxation::keeps_upright(VertexId v, Vec3 there) const {
   const Halfedges& mesh = mesh_->mesh;
-  const Sight& own = look_at(v);
-  if (!own.is_there) return false;
-  ring.centre = own.uv;
-  ring.weight = own.weight;
-  ring.count = 0;
-  const HalfedgeId first = mesh.outgoing[v];
-  HalfedgeId h = first;
-  do {
-    const Sight& other = look_at(mesh.target(h));
-    if (!other.is_there || ring.count == most_neighbours) return false;
-    ring.point[ring.count] = other.uv;
-    ring.point_weight[ring.count] = other.weight;
-    ring.line_after[ring.count++] = mesh_->is_fixed(next(h));
-    h = mesh.turn_left(h);
-  } while (!h.is_none() && h != first);
-  return !h.is_none();
+  const Vec3 normal = StarNormal(mesh, site_, v).sum;
+  const double least = least_cosine * length(normal);
+  const auto is_upright = [&](Vec3 p, HalfedgeId h) {
+    const Vec3 n = cross(site_[mesh.target(h)].position - p, site_[mesh.apex(h)].position - p);
+    return dot(n, normal) > least * length(n);
+  };
+  std::uint32_t now = 0, then = 0;
+  visit_outgoing(mesh, v, [&](HalfedgeId h) {
+    now += is_upright(site_[v].position, h);
+    then += is_upright(there, h);
+  });
+  return then >= now;
 }
 
-/// The over-relaxed step to the centroid of the cell, cut by the lines of the star.
-bool Relaxation::find_target(VertexId v) {
-  Ring ring;
-  if (!gather(v, ring)) return false;
-  WeightedPolygon cell;
-  for (std::uint32_t i = 0; i < ring.count; ++i) {
-    const double weight = (ring.weight + ring.point_weight[i] + ring.following_weight(i)) / 3;
-    cell.corner[cell.count++] = {circumcentre(ring.centre, ring.point[i], ring.following(i)), weight};
-  }
-  for (std::uint32_t i = 0; i < ring.count; ++i) {
-    if (ring.line_after[i]) cell.clip(ring.point[i], ring.following(i));
-  }
-  if (!ring.holds(ring.centre)) {
-    target_[v] = ring.mean();
-    return true;
-  }
-  const Moment moment = integrate(cell, ring.centre, ring.weight);
-  if (!(moment.mass > 0)) return false;
-  target_[v] = ring.centre + options_.step / moment.mass * moment.first;
+/// Whether each face keeps to the side that it is on.
+bool Relaxation::keeps_sides(VertexId v, Vec3 there) const {
+  const Halfedges& mesh = mesh_->mesh;
+  const Vec3 p = site_[v].position;
+  bool keeps = true;
+  visit_outgoing(mesh, v, [&](HalfedgeId h) {
+    const Vec3 a = site_[mesh.target(h)].position, b = site_[mesh.apex(h)].position;
+    keeps = keeps && dot(cross(a - p, b - p), cross(a - there, b - there)) > 0;
+  });
+  return keeps;
+}
+
+bool Relaxation::keeps_faces(VertexId v, Vec3 there) const {
+  return is_bent_[v] ? keeps_sides(v, there) : keeps_upright(v, there);
+}
+
+bool Relaxation::move_by(SampleId s, Vec3 way) {
+  SurfacePlace place;
+  if (!walk_straight(*surface_, samples_.place[s], way, place)) return false;
+  const Vec3 there = position_of(*surface_, place);
+  if (!keeps_faces(vertex(s), there)) return false;
+  samples_.place[s] = place;
+  site_[s].position = there;
   return true;
 }
 
-void Relaxation::move(VertexId v) {
-  Ring ring;
-  if (!gather(v, ring)) return;
-  const std::uint32_t positive = ring.positive_faces(ring.centre);
-  for (std::uint32_t halving = 0; halving <= most_halvings; ++halving) {
+/// How far v may slide on its line at once.
+double Relaxation::room_on_line(VertexId v) const {
+  double least = 1e300;
+  const auto look_along = [&](HalfedgeId h, VertexId other) {
+    if (mesh_->is_fixed(h)) least = smaller(least, distance(site_[v].position, site_[other].position));
+  };
+  visit_outgoing(mesh_->mesh, v, [&](HalfedgeId h) {
+    look_along(h, mesh_->mesh.target(h));
+    look_along(prev(h), mesh_->mesh.apex(h));
+  });
+  return most_of_interval * least;
+}
+
+bool Relaxation::slide_by(SampleId s, Vec3 way) {
+  const LineAnchor& anchor = samples_.anchor[s];
+  const Vec3 along = surface_->position(surface_->mesh.target(anchor.halfedge)) -
+                     surface_->position(surface_->mesh.origin[anchor.halfedge]);
+  const double size = length(along), room = room_on_line(vertex(s));
+  if (!(size > 0)) return false;
+  const double wished = dot(way, along) / size;
+  const LineAnchor there =
+      slide_along(*surface_, *features_, anchor, greater(-room, smaller(room, wished)));
+  const Vec3 point = position_of(*surface_, there);
+  if (!keeps_faces(vertex(s), point)) return false;
+  samples_.anchor[s] = there;
+  site_[s].position = point;
+  return true;
+}
+
+/// The way that a sample is to go. On a line its part along that counts; else the part along the star, or along the
+/// surface where the star is folded up: that cell is rough, and the step plain.
+Vec3 Relaxation::step_of(SampleId s) const {
+  const Vec3 way = 1 / cell_[s].weight * cell_[s].moment;
+  if (is_bent_[s]) return flatten(way, area_vector(*surface_, samples_.place[s].face));
+  if (samples_.held[s]) return options_.step * way;
+  return options_.step * flatten(way, StarNormal(mesh_->mesh, site_, vertex(s)).sum);
+}
+
+void Relaxation::move(SampleId s) {
+  const bool slides = samples_.held[s] == hold_line;
+  if (samples_.held[s] == hold_place || !(cell_[s].weight > 0)) return;
+  Vec3 way = step_of(s);
+  for (std::uint32_t halving = 0; halving <= most_halvings; ++halving, way = 0.5 * way) {
     if (halving == 1) ++report_.shortened;
-    const Vec2 target = target_[v];
-    target_[v] = 0.5 * (ring.centre + target);
-    if (ring.positive_faces(target) < positive) continue;
-    const FrameGround::LocalPlace place = ground_.walk(samples_.place[sample(v)].face, target);
-    if (place.is_none()) continue;
-    samples_.place[sample(v)] = {place.face, place.w[1], place.w[2]};
-    sight_[v].when = 0;
-    ++report_.moved;
-    return;
+    if (slides ? slide_by(s, way) : move_by(s, way)) {
+      ++report_.moved;
+      return;
+    }
   }
 }
 
-/// A sample that no frame holds with its star goes half the way to the mean of its neighbours, where that does not turn
-/// a face against the surface more than it was.
-void Relaxation::move_in_space(VertexId v) {
-  const Halfedges& mesh = mesh_->mesh;
-  const Vec3 here = position_of(*surface_, samples_, sample(v));
-  Vec3 sum{0, 0, 0};
-  double count = 0;
-  visit_outgoing(mesh, v, [&](HalfedgeId h) {
-    sum = sum + position_of(*surface_, samples_, sample(mesh.target(h)));
-    count += 1;
-  });
-  const auto worst_turn = [&](Vec3 p, Vec3 normal) {
-    double worst = 1;
-    visit_outgoing(mesh, v, [&](HalfedgeId h) {
-      const Vec3 a = position_of(*surface_, samples_, sample(mesh.target(h))) - p;
-      const Vec3 b = position_of(*surface_, samples_, sample(mesh.apex(h))) - p;
-      const Vec3 n = cross(a, b);
-      const double size = length(n) * length(normal);
-      worst = smaller(worst, size > 0 ? dot(n, normal) / size : -1);
-    });
-    return worst;
-  };
-  SurfacePlace& place = samples_.place[sample(v)];
-  const SurfacePlace there = descend(*surface_, place.face, 0.5 * (here + (1 / count) * sum));
-  const double before = worst_turn(here, area_vector(*surface_, place.face));
-  if (worst_turn(position_of(*surface_, there), area_vector(*surface_, there.face)) < before) return;
-  place = there;
-  sight_[v].when = 0;
-}
-
+/// Delaunay by angles, unless a face would be turned over by it.
 bool Relaxation::wants_flip(HalfedgeId h) const {
   const Halfedges& mesh = mesh_->mesh;
   const HalfedgeId g = mesh.twin[h];
-  const Sight& at_a = look_at(mesh.origin[h]);
-  const Sight& at_b = look_at(mesh.origin[g]);
-  const Sight& at_c = look_at(mesh.apex(h));
-  const Sight& at_d = look_at(mesh.apex(g));
-  if (!at_a.is_there || !at_b.is_there || !at_c.is_there || !at_d.is_there) return false;
-  const Vec2 a = at_a.uv, b = at_b.uv, c = at_c.uv, d = at_d.uv;
-  if (!(orient2d(d, b, c) > 0) || !(orient2d(c, a, d) > 0)) return false;
-  const bool inverted = !(orient2d(a, b, c) > 0) || !(orient2d(b, a, d) > 0);
-  return (inverted || in_circle(a, b, c, d) > 0) && can_flip(*mesh_, h);
+  const Vec3 a = site_[mesh.origin[h]].position, b = site_[mesh.origin[g]].position;
+  const Vec3 c = site_[mesh.apex(h)].position, d = site_[mesh.apex(g)].position;
+  if (!sum_over_straight(angle_at(c, a, b), angle_at(d, a, b))) return false;
+  const Vec3 left = cross(b - a, c - a), right = cross(a - b, d - b), both = left + right;
+  const Vec3 new_left = cross(b - d, c - d), new_right = cross(a - c, d - c);
+  const bool is_convex = dot(new_left, both) > 0 && dot(new_right, both) > 0;
+  const bool was_upright = dot(left, both) > 0 && dot(right, both) > 0;
+  if (!is_convex && (was_upright || !(dot(new_left, new_right) > dot(left, right)))) return false;
+  return can_flip(*mesh_, h);
 }
 
-/// Every edge belongs to the lowest free sample among its ends and, where both are held, its apexes.
-void Relaxation::flip_around(VertexId v) {
-  const Halfedges& mesh = mesh_->mesh;
-  const auto is_free = [&](VertexId w) { return !samples_.held[sample(w)]; };
-  for (std::uint32_t flips = 0; flips < most_neighbours; ++flips) {
-    HalfedgeId chosen = none<HalfedgeId>();
-    const HalfedgeId first = mesh.outgoing[v];
-    HalfedgeId h = first;
-    do {
-      const VertexId w = mesh.target(h);
-      if ((!is_free(w) || v < w) && !mesh.is_boundary(h) && !mesh_->is_fixed(h) && wants_flip(h)) chosen = h;
-      const HalfedgeId link = next(h);
-      if (!is_free(w) && !is_free(mesh.target(link)) && !mesh.is_boundary(link) && !mesh_->is_fixed(link)) {
-        const VertexId beyond = mesh.apex(mesh.twin[link]);
-        if ((!is_free(beyond) || v < beyond) && wants_flip(link)) chosen = link;
-      }
-      h = mesh.turn_left(h);
-    } while (chosen.is_none() && !h.is_none() && h != first);
-    if (chosen.is_none()) return;
-    flip(*mesh_, chosen);
-    ++report_.flips;
-  }
-}
-
-/// Strips between two lines have no free sample to look after their edges.
-void Relaxation::flip_between_lines(HalfedgeId h) {
-  const Halfedges& mesh = mesh_->mesh;
-  const HalfedgeId g = mesh.twin[h];
-  if (g.is_none() || g < h || mesh_->is_fixed(h)) return;
-  const VertexId corners[4] = {mesh.origin[h], mesh.origin[g], mesh.apex(h), mesh.apex(g)};
-  for (VertexId v : corners) {
-    if (!samples_.held[sample(v)]) return;
-  }
-  if (!wants_flip_in_space(*surface_, *mesh_, samples_, h)) return;
+void Relaxation::flip_edge(HalfedgeId h) {
+  const HalfedgeId g = mesh_->mesh.twin[h];
+  if (g.is_none() || g < h || mesh_->is_fixed(h) || !wants_flip(h)) return;
   flip(*mesh_, h);
   ++report_.flips;
 }
 
-void Relaxation::find_targets(std::uint32_t frame) {
-  look_anew(frame);
-  for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
-    const SampleId s = resident_[i];
-    has_target_[s] = find_target(vertex(s));
-    if (has_target_[s]) continue;
-    ++report_.homeless;
-    guest_[s] = guest_[s] < most_hosts ? static_cast<std::uint8_t>(guest_[s] + 1) : std::uint8_t{0};
-  }
-}
-
-void Relaxation::move_and_flip(std::uint32_t frame) {
-  look_anew(frame);
-  for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) {
-    if (has_target_[resident_[i]]) {
-      move(vertex(resident_[i]));
-    } else {
-      move_in_space(vertex(resident_[i]));
-    }
-  }
-  for (std::uint32_t round = 0; round < 2; ++round) {
-    for (std::uint32_t i = start_[frame]; i < start_[frame + 1]; ++i) flip_around(vertex(resident_[i]));
-  }
-}
-
 bool Relaxation::step() {
-  const std::size_t frame_count = frames_->frame.count;
+  const Halfedges& mesh = mesh_->mesh;
   switch (phase_) {
-    case Phase::homes:
+    case Phase::look:
+      if (!sweep_.over<SampleId>(samples_.count(), [&](SampleId s) { look(s); })) return false;
       report_ = {};
-      assign_homes();
-      frame_ = 0;
-      phase_ = Phase::targets;
+      phase_ = Phase::cells;
       return false;
-    case Phase::targets:
-      find_targets(frame_);
-      if (++frame_ < frame_count) return false;
-      frame_ = 0;
-      phase_ = Phase::moves;
+    case Phase::cells: {
+      const auto add = [&](FaceId f) { add_face_to_cells(*mesh_, site_, f, closes_loop_, cell_); };
+      if (!sweep_.over<FaceId>(mesh.face_count(), add)) return false;
+      phase_ = Phase::bends;
       return false;
-    case Phase::moves:
-      move_and_flip(frame_);
-      if (++frame_ == frame_count) phase_ = Phase::strips;
+    }
+    case Phase::bends:
+      if (!sweep_.over<SampleId>(samples_.count(), [&](SampleId s) { look_for_bend(s); })) return false;
+      phase_ = Phase::tiles;
       return false;
-    case Phase::strips:
-      if (!sweep_.over<HalfedgeId>(mesh_->mesh.halfedge_count(), [&](HalfedgeId h) { flip_between_lines(h); })) {
+    case Phase::tiles:
+      if (report_.bent > 0 && !sweep_.over<FaceId>(surface_->mesh.face_count(), [&](FaceId f) { settle(f); })) {
         return false;
       }
-      phase_ = Phase::homes;
+      if (closes_loop_) loop_.start();
+      phase_ = closes_loop_ ? Phase::loop : Phase::moves;
+      closes_loop_ = false;
+      return false;
+    case Phase::loop:
+      loop_.step(cell_);
+      if (loop_.done()) phase_ = Phase::moves;
+      return false;
+    case Phase::moves:
+      if (sweep_.over<SampleId>(samples_.count(), [&](SampleId s) { move(s); })) phase_ = Phase::flips;
+      return false;
+    case Phase::flips:
+      if (!sweep_.over<HalfedgeId>(mesh.halfedge_count(), [&](HalfedgeId h) { flip_edge(h); })) return false;
+      if (++round_ < flip_rounds) return false;
+      round_ = 0;
+      phase_ = Phase::look;
       return true;
   }
   return true;

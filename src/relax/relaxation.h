@@ -1,15 +1,24 @@
-// Relaxation of the whole mesh in overlapping charts: moves and flips, no seams.
+// Relaxation of the whole mesh, star by star: moves and flips, no seams.
 //
-// All free samples get their new places from their old ones, each in the map of its home: the centroid of its bounded
-// Voronoi cell, over-relaxed. Then, frame by frame, the moves are made, shortened or dropped where a face would not
-// stay positive, and the edges are flipped where the in-circle test in the home says so. Feature edges are fixed and
-// samples on them are held. The mesh is a valid manifold with the same count after every iteration.
+// The paper's section 7 names what is needed: charts that overlap, so that no edge and no vertex remembers where the
+// surface was cut; Surazhsky, Alliez and Gotsman, "Isotropic remeshing of surfaces: a local parameterization approach"
+// (2003), made them of the star of one vertex. So it is here. Larger charts were tried, flattened by least squares with
+// the stars of some sixty samples inside: they cost more than all the rest, fold where a coarse mesh is curled, and came
+// out worse (bunny at 10,000: Q mean 0.925 against 0.939). A star needs no map: its faces are flat already.
+//
+// All samples move at once, from their old places: each by the over-relaxed step to the centroid of its bounded Voronoi
+// cell, the part of it along the surface, walked straight on over the original faces. A sample on a feature slides
+// along it by the same centroid, of its cells on both sides; one at a corner, or that keeps a line's shape, stays. The
+// cell of a sample whose star is folded up is taken from the surface (`Tiles`). A step that would turn a face over is
+// halved or dropped. Then edges that are no feature are flipped by their angles
+// (Bobenko and Springborn 2007). The mesh is a valid manifold with the same count after every iteration.
 #pragma once
 
-#include "base/sweep.h"
 #include "isolod/options.h"
-#include "mesh/triangulation.h"
-#include "relax/frame_ground.h"
+#include "relax/mass_loop.h"
+#include "relax/star_cells.h"
+#include "relax/tiles.h"
+#include "sample/backbones.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -22,65 +31,58 @@ struct RelaxOptions {
 /// What one iteration came to.
 struct RelaxReport {
   std::uint32_t moved = 0;
-  std::uint32_t homeless = 0;   ///< free samples whose star no frame holds
   std::uint32_t shortened = 0;  ///< moves that were halved or dropped
   std::uint32_t flips = 0;
+  std::uint32_t bent = 0;  ///< samples whose stars are folded up
 };
 
 class Relaxation {
  public:
-  /// 60 bytes a sample and 4 a face of the surface of scratch stay with the caller's scope.
-  Status begin(const Surface& surface, const Frames& frames, Triangulation& mesh, const Samples& samples,
+  /// `features` are the backbones of the surface without seams, or null where it has none. 122 bytes a sample
+  /// and 4 a face of the surface of scratch stay with the caller's scope.
+  Status begin(const Surface& surface, const Backbones* features, Triangulation& mesh, const Samples& samples,
                const RelaxOptions& options, Arena& arena);
 
-  /// A piece of an iteration: the targets of one frame, the moves and flips of one, or a range of edges; true at the
-  /// end of the iteration.
+  /// The next iteration feeds the cells' masses back into the corrections (design: closed loop).
+  void close_loop_next() { closes_loop_ = true; }
+
+  /// A range of samples, faces or edges; true at the end of the iteration.
   bool step();
   const RelaxReport& report() const { return report_; }  ///< of the iteration that ended last, or goes on
   /// A whole iteration.
   RelaxReport iterate();
 
  private:
-  enum class Phase : std::uint8_t { homes, targets, moves, strips };
-  struct Ring;
-  void assign_homes();
-  std::uint32_t home(SampleId s) const;
-  bool gather(VertexId v, Ring& ring) const;
-  bool find_target(VertexId v);
-  void find_targets(std::uint32_t frame);
-  void move(VertexId v);
-  void move_in_space(VertexId v);
-  void flip_around(VertexId v);
-  void move_and_flip(std::uint32_t frame);
-  void flip_between_lines(HalfedgeId h);
+  enum class Phase : std::uint8_t { look, cells, bends, tiles, loop, moves, flips };
+  void look(SampleId s);
+  void look_for_bend(SampleId s);
+  void settle(FaceId f) { tiles_.settle(*mesh_, samples_, site_, f, is_bent_, cell_); }
+  Vec3 step_of(SampleId s) const;
+  void move(SampleId s);
+  bool move_by(SampleId s, Vec3 way);
+  bool slide_by(SampleId s, Vec3 way);
+  bool keeps_faces(VertexId v, Vec3 there) const;
+  bool keeps_upright(VertexId v, Vec3 there) const;
+  bool keeps_sides(VertexId v, Vec3 there) const;
+  double room_on_line(VertexId v) const;
   bool wants_flip(HalfedgeId h) const;
-  /// Where a sample is in the selected frame, looked up once a frame and kept until the sample moves.
-  struct Sight {
-    Vec2 uv;
-    double weight;       ///< of the corrected density
-    std::uint32_t when;  ///< the number of the look
-    bool is_there;
-  };
-  const Sight& look_at(VertexId v) const;
-  void look_anew(std::uint32_t frame);
+  void flip_edge(HalfedgeId h);
 
   const Surface* surface_ = nullptr;
-  const Frames* frames_ = nullptr;
+  const Backbones* features_ = nullptr;
   Triangulation* mesh_ = nullptr;
   Samples samples_;
   RelaxOptions options_;
   RelaxReport report_;
-  Phase phase_ = Phase::homes;
-  std::uint32_t frame_ = 0;
+  Phase phase_ = Phase::look;
   Sweep sweep_;
-  FrameGround ground_;
-  Span<std::uint32_t> start_;  // per frame, one more: its part of `resident_`
-  Span<SampleId> free_, resident_;
-  Span<Vec2> target_;
-  Span<Sight> sight_;  // per sample
-  std::uint32_t look_ = 0;
-  Span<std::uint8_t> has_target_;
-  Span<std::uint8_t> guest_;  // per sample: 0 at home in its core's frame, k in that of its k-th neighbour
+  std::uint32_t round_ = 0;  // of flips
+  bool closes_loop_ = false;
+  MassLoop loop_;
+  Tiles tiles_;
+  Span<std::uint8_t> is_bent_;  // per sample: its star is folded up
+  Span<Site> site_;
+  Span<StarCell> cell_;
 };
 
 }  // namespace v1

@@ -1,6 +1,7 @@
 #include "relax/thin_out.h"
 
 #include "base/status.h"
+#include "relax/drop_dead.h"
 #include "relax/face_mass.h"
 #include "relax/space_flip.h"
 
@@ -18,11 +19,6 @@ bool is_at_corner(const Surface& surface, const LineAnchor& anchor) {
   if (anchor.along != 0 && anchor.along != 1) return false;
   const HalfedgeId h = anchor.along == 0 ? anchor.halfedge : next(anchor.halfedge);
   return surface.corner[surface.mesh.origin[h]] != 0;
-}
-
-Vec3 unit(Vec3 a) {
-  const double size = length(a);
-  return size > 0 ? (1 / size) * a : a;
 }
 
 /// Of the surface at a sample; on a line the mean of both sides, none at a corner of the lines.
@@ -193,23 +189,7 @@ void ThinOut::step() {
   }
 }
 
-Status ThinOut::finish(Arena& arena) {
-  const ScratchScope scope(arena);
-  Samples& samples = *samples_;
-  Span<VertexId> number;
-  ISOLOD_TRY(arena.scratch(samples.count(), number));
-  std::uint32_t count = 0;
-  for (SampleId s : Ids<SampleId>(samples.count())) {
-    const bool stays = !mesh_->mesh.outgoing[VertexId{s.value}].is_none();
-    number[s] = stays ? VertexId{count} : none<VertexId>();
-    if (!stays) continue;
-    samples.place[SampleId{count}] = samples.place[s];
-    samples.anchor[SampleId{count}] = samples.anchor[s];
-    samples.held[SampleId{count++}] = samples.held[s];
-  }
-  samples.place.count = samples.anchor.count = samples.held.count = count;
-  return compact(*mesh_, number, count, arena);
-}
+Status ThinOut::finish(Arena& arena) { return drop_dead_samples(*mesh_, *samples_, arena); }
 
 Status thin_out(const Surface& surface, const ThinOptions& options, Triangulation& mesh, Samples& samples,
                 Arena& arena) {

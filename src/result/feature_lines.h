@@ -13,10 +13,16 @@
 namespace isolod {
 inline namespace v1 {
 
-/// Takes the seams out of `surface.line` and moves the anchors of held samples. Their order along each backbone stays.
-/// Scratch and passing results: about 40 bytes a halfedge of the surface and 60 a held sample, all given back. O(n log
-/// n) time.
-Status sample_features_anew(Surface& surface, LloydWeight weight, Samples& samples, Arena& arena);
+struct FeatureSampling {
+  LloydWeight weight = LloydWeight::equal;
+  bool keep_shape = true;  ///< pull samples onto vertices that their chords would cut off, and hold them there
+};
+
+/// Moves the anchors of all held samples between corners; their order along each backbone stays. `features` are the
+/// backbones of `surface` without seams. Scratch: about 40 bytes an edge of the longest backbone and 100 a held sample,
+/// given back. O(n log n) time.
+Status sample_features_anew(const Surface& surface, const Backbones& features, const FeatureSampling& options,
+                            Samples& samples, Arena& arena);
 
 }  // namespace v1
 }  // namespace isolod

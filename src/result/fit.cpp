@@ -19,11 +19,6 @@ constexpr double unlimited = 1e300;
 /// A rule for integrals over a triangle that is exact for squares: points half way from the centroid to the corners.
 constexpr double rule[3][3] = {{4.0 / 6, 1.0 / 6, 1.0 / 6}, {1.0 / 6, 4.0 / 6, 1.0 / 6}, {1.0 / 6, 1.0 / 6, 4.0 / 6}};
 
-Vec3 unit(Vec3 a) {
-  const double size = length(a);
-  return size > 0 ? (1 / size) * a : Vec3{0, 0, 0};
-}
-
 double squared(Vec3 a) { return dot(a, a); }
 
 /// The sum of the squared sides.

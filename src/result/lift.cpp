@@ -24,7 +24,7 @@ bool is_on_feature(const Surface& surface, VertexId v) {
 void put(Samples& samples, SampleId s, LineAnchor anchor, bool held) {
   samples.anchor[s] = anchor;
   samples.place[s] = place_on_halfedge(anchor.halfedge, anchor.along);
-  samples.held[s] = held;
+  samples.held[s] = held ? hold_place : hold_none;
 }
 
 }  // namespace
@@ -36,6 +36,8 @@ Status gather_samples(const SampledSurface& sampled, Samples& samples, Arena& ar
   ISOLOD_TRY(arena.result(count, samples.place));
   ISOLOD_TRY(arena.result(count, samples.anchor));
   ISOLOD_TRY(arena.result(count, samples.held));
+  ISOLOD_TRY(arena.result(count, samples.correction));
+  for (double& c : samples.correction) c = 0;
   for (std::uint32_t i = 0; i < numbers.node_count; ++i) {
     const VertexId v = sampled.backbones->node[i];
     put(samples, numbers.of_node(i), {surface.mesh.outgoing[v], 0}, is_on_feature(surface, v));
@@ -49,7 +51,7 @@ Status gather_samples(const SampledSurface& sampled, Samples& samples, Arena& ar
     const SampleId s = numbers.of_surface(i);
     samples.place[s] = sampled.places[i];
     samples.anchor[s] = {none<HalfedgeId>(), 0};
-    samples.held[s] = 0;
+    samples.held[s] = hold_none;
   }
   return {};
 }

@@ -11,13 +11,15 @@ Vec3 position_of(const Surface& surface, const SurfacePlace& place) {
   return a + place.weight1 * (b - a) + place.weight2 * (c - a);
 }
 
-Vec3 position_of(const Surface& surface, const Samples& samples, SampleId s) {
-  if (!samples.held[s]) return position_of(surface, samples.place[s]);
-  const LineAnchor& anchor = samples.anchor[s];
+Vec3 position_of(const Surface& surface, const LineAnchor& anchor) {
   const Vec3 a = surface.position(surface.mesh.origin[anchor.halfedge]);
   if (anchor.along == 0) return a;
   const Vec3 b = surface.position(surface.mesh.target(anchor.halfedge));
   return anchor.along == 1 ? b : a + anchor.along * (b - a);
+}
+
+Vec3 position_of(const Surface& surface, const Samples& samples, SampleId s) {
+  return samples.held[s] ? position_of(surface, samples.anchor[s]) : position_of(surface, samples.place[s]);
 }
 
 }  // namespace v1

@@ -1,0 +1,81 @@
+#include "relax/mass_loop.h"
+
+#include "base/elementary.h"
+#include "base/status.h"
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+constexpr double loop_gain = 1.0;
+constexpr double most_correction = 1.0;
+constexpr std::uint32_t rings = 6;
+constexpr double whole_turn = 6.283185307179586;
+}  // namespace
+
+Status MassLoop::begin(const Triangulation& mesh, const Samples& samples, Arena& arena) {
+  mesh_ = &mesh;
+  samples_ = samples;
+  phase_ = Phase::done;
+  sweep_ = {};
+  ISOLOD_TRY(arena.scratch(samples.count(), error_));
+  return arena.scratch(samples.count(), averaged_);
+}
+
+/// Up to the mean, which is taken off at the end. 0 for a held sample.
+double MassLoop::error_of(SampleId s, const StarCell& cell) {
+  if (samples_.held[s] || !(cell.mass > 0) || !(cell.angle > 0)) return 0;
+  const double error = logarithm(cell.mass * whole_turn / cell.angle);
+  sum_ += error;
+  count_ += 1;
+  return error;
+}
+
+/// Half its own error, half the mean over its ring.
+double MassLoop::average_around(SampleId s) const {
+  if (samples_.held[s]) return 0;
+  double sum = error_[s], count = 1;
+  visit_outgoing(mesh_->mesh, VertexId{s.value}, [&](HalfedgeId h) {
+    const SampleId other{mesh_->mesh.target(h).value};
+    if (samples_.held[other]) return;
+    sum += error_[other];
+    count += 1;
+  });
+  return 0.5 * (error_[s] + sum / count);
+}
+
+void MassLoop::step(Span<const StarCell> cell) {
+  const std::size_t count = samples_.count();
+  switch (phase_) {
+    case Phase::errors:
+      if (!sweep_.over<SampleId>(count, [&](SampleId s) { error_[s] = error_of(s, cell[s]); })) return;
+      phase_ = Phase::average;
+      return;
+    case Phase::average: {
+      if (!sweep_.over<SampleId>(count, [&](SampleId s) { averaged_[s] = average_around(s); })) return;
+      const Span<double> swap = error_;
+      error_ = averaged_;
+      averaged_ = swap;
+      if (++round_ == rings) phase_ = Phase::correct;
+      return;
+    }
+    case Phase::correct: {
+      const double mean = count_ > 0 ? sum_ / count_ : 0;
+      const auto correct = [&](SampleId s) {
+        if (samples_.held[s]) return;
+        const double c = samples_.correction[s] + loop_gain * (error_[s] - mean);
+        samples_.correction[s] = greater(-most_correction, smaller(most_correction, c));
+      };
+      if (!sweep_.over<SampleId>(count, correct)) return;
+      sum_ = count_ = 0;
+      round_ = 0;
+      phase_ = Phase::done;
+      return;
+    }
+    case Phase::done:
+      return;
+  }
+}
+
+}  // namespace v1
+}  // namespace isolod

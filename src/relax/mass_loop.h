@@ -1,0 +1,39 @@
+// The closed loop on cell masses: what makes the realised density the wished one.
+//
+// design.md, "The weight that Lloyd needs is not the density": weights d^2 reach the wished density only for many
+// samples. So each sample carries a correction c of its weight, and c grows by a gain times the logarithm of its cell's
+// mass over its share of density, averaged over a few rings. The share of a sample is the angle of its star over two
+// pi. Samples that are held keep c = 0 and are left out of the averaging, which therefore does not cross features.
+#pragma once
+
+#include "relax/star_cells.h"
+
+namespace isolod {
+inline namespace v1 {
+
+/// A stage: begin once, then `start` and step until done, as often as the loop is closed.
+class MassLoop {
+ public:
+  /// 16 bytes a sample of scratch stay with the caller's scope.
+  Status begin(const Triangulation& mesh, const Samples& samples, Arena& arena);
+  void start() { phase_ = Phase::errors; }
+  /// A range of samples.
+  void step(Span<const StarCell> cell);
+  bool done() const { return phase_ == Phase::done; }
+
+ private:
+  enum class Phase : std::uint8_t { errors, average, correct, done };
+  double error_of(SampleId s, const StarCell& cell);
+  double average_around(SampleId s) const;
+
+  const Triangulation* mesh_ = nullptr;
+  Samples samples_;
+  Phase phase_ = Phase::done;
+  Sweep sweep_;
+  std::uint32_t round_ = 0;
+  double sum_ = 0, count_ = 0;
+  Span<double> error_, averaged_;
+};
+
+}  // namespace v1
+}  // namespace isolod

@@ -1,0 +1,76 @@
+#include "relax/tiles.h"
+
+#include "base/status.h"
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+
+FaceId face_of(const Samples& samples, SampleId s) {
+  return samples.held[s] ? face(samples.anchor[s].halfedge) : samples.place[s].face;
+}
+
+}  // namespace
+
+Status Tiles::begin(const Surface& surface, const Samples& samples, Arena& arena) {
+  surface_ = &surface;
+  const std::size_t count = surface.mesh.face_count();
+  ISOLOD_TRY(arena.scratch(count, owner_));
+  const ScratchScope scope(arena);
+  Span<FaceId> queue;
+  ISOLOD_TRY(arena.scratch(count, queue));
+  for (SampleId& s : owner_) s = none<SampleId>();
+  std::size_t tail = 0;
+  for (SampleId s : Ids<SampleId>(samples.count())) {
+    const FaceId f = face_of(samples, s);
+    if (owner_[f].is_none()) owner_[f] = s, queue[tail++] = f;
+  }
+  for (std::size_t head = 0; head < tail; ++head) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const HalfedgeId t = surface.mesh.twin[halfedge(queue[head], k)];
+      if (t.is_none() || (surface.line[t] & line_feature) != 0 || !owner_[face(t)].is_none()) continue;
+      owner_[face(t)] = owner_[queue[head]];
+      queue[tail++] = face(t);
+    }
+  }
+  return {};
+}
+
+void Tiles::settle(const Triangulation& mesh, const Samples& samples, Span<const Site> site, FaceId f,
+                   Span<const std::uint8_t> is_bent, Span<StarCell> cell) {
+  constexpr std::uint32_t most_steps = 2;
+  SampleId best = owner_[f];
+  if (best.is_none()) return;
+  Vec3 corner[3];
+  double density = 0;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    corner[k] = surface_->position(surface_->mesh.origin[halfedge(f, k)]);
+    density += surface_->density(halfedge(f, k)) / 3;
+  }
+  const Vec3 middle = (1.0 / 3) * (corner[0] + corner[1] + corner[2]);
+  const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  const auto far = [&](SampleId s) {
+    const Vec3 way = middle - site[s].position;
+    const bool other_side = dot(normal, area_vector(*surface_, face_of(samples, s))) < 0;
+    return dot(way, way) * (other_side ? 4 : 1);
+  };
+  double least = far(best);
+  for (std::uint32_t step = 0; step < most_steps; ++step) {
+    const SampleId from = best;
+    visit_outgoing(mesh.mesh, vertex(from), [&](HalfedgeId h) {
+      const SampleId other{mesh.mesh.target(h).value};
+      const double d = far(other);
+      if (d < least) best = other, least = d;
+    });
+    if (best == from) break;
+  }
+  owner_[f] = best;
+  if (!is_bent[best]) return;
+  const double area = 0.5 * length(normal), weight = area * density * density;
+  cell[best].weight += weight;
+  cell[best].moment = cell[best].moment + weight * (middle - site[best].position);
+}
+
+}  // namespace v1
+}  // namespace isolod

@@ -1,0 +1,33 @@
+// Which faces of the surface belong to which sample: the cells of samples whose stars do not show the surface.
+//
+// Where a mesh is coarse for its shape, a star is folded up: over the rim of a thin plate, at the tip of an ear. The
+// faces of such a star say nothing of the surface between and beyond them, and its sample would slip off the rim. Its
+// cell is taken from the surface instead: every original face belongs to the nearest sample that it finds by going from
+// neighbour to neighbour over the mesh, those on the other side of a sheet counted twice as far.
+#pragma once
+
+#include "relax/star_cells.h"
+
+namespace isolod {
+inline namespace v1 {
+
+class Tiles {
+ public:
+  /// Gives every face to a sample, from the samples' own faces on outwards, over no feature. 4 bytes a face of the
+  /// surface of scratch stay with the caller's scope, 4 more are given back.
+  Status begin(const Surface& surface, const Samples& samples, Arena& arena);
+
+  /// Looks for a nearer sample for face f among the neighbours of the one that it belongs to, and adds it to the cell of
+  /// that sample where `is_bent` says so.
+  void settle(const Triangulation& mesh, const Samples& samples, Span<const Site> site, FaceId f,
+              Span<const std::uint8_t> is_bent, Span<StarCell> cell);
+
+  SampleId owner(FaceId f) const { return owner_[f]; }
+
+ private:
+  const Surface* surface_ = nullptr;
+  Span<SampleId> owner_;  // none where no sample can be reached
+};
+
+}  // namespace v1
+}  // namespace isolod

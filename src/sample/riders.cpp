@@ -1,0 +1,94 @@
+#include "sample/riders.h"
+
+#include "base/sort.h"
+#include "base/status.h"
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+
+/// The edge of the skeleton that begins at v, or the one that ends there.
+LinePlace place_of_vertex(const Surface& surface, const Backbones& features, VertexId v) {
+  LinePlace place{UINT32_MAX, 0};
+  visit_outgoing(surface.mesh, v, [&](HalfedgeId h) {
+    const HalfedgeId sides[2] = {h, prev(h)};
+    for (HalfedgeId side : sides) {
+      const std::uint32_t e = features.place[side];
+      if (place.edge != UINT32_MAX || e == UINT32_MAX) continue;
+      place = {e, surface.mesh.origin[features.edge[e]] == v ? 0.0 : 1.0};
+    }
+  });
+  return place;
+}
+
+/// The vertex that an anchor sits on, or none.
+VertexId vertex_of(const Surface& surface, const LineAnchor& anchor) {
+  if (anchor.along == 0) return surface.mesh.origin[anchor.halfedge];
+  return anchor.along == 1 ? surface.mesh.target(anchor.halfedge) : none<VertexId>();
+}
+
+LinePlace place_of_anchor(const Surface& surface, const Backbones& features, const LineAnchor& anchor) {
+  const VertexId v = vertex_of(surface, anchor);
+  if (!v.is_none()) return place_of_vertex(surface, features, v);
+  const std::uint32_t e = features.place[anchor.halfedge];
+  return {e, features.edge[e] == anchor.halfedge ? anchor.along : 1 - anchor.along};
+}
+
+bool is_before(const Rider& a, const Rider& b) {
+  if (a.place.edge != b.place.edge) return a.place.edge < b.place.edge;
+  return a.place.along < b.place.along || (a.place.along == b.place.along && a.sample < b.sample);
+}
+
+void find_starts(const Backbones& features, Riders& riders) {
+  std::uint32_t filled = 0;
+  for (std::size_t b = 0; b < features.count(); ++b) {
+    riders.start[b] = filled;
+    while (filled < riders.rider.count && riders.rider[filled].place.edge < features.start[b + 1]) ++filled;
+  }
+  riders.start[features.count()] = filled;
+}
+
+}  // namespace
+
+Status collect_riders(const Surface& surface, const Backbones& features, const Samples& samples, Riders& riders,
+                      Arena& arena) {
+  std::size_t count = 0;
+  for (std::uint8_t h : samples.held) count += h != 0;
+  ISOLOD_TRY(arena.scratch(features.start.count, riders.start));
+  ISOLOD_TRY(arena.scratch(features.node.count, riders.node));
+  ISOLOD_TRY(arena.scratch(count, riders.rider));
+  const ScratchScope scope(arena);
+  Span<Rider> buffer;
+  ISOLOD_TRY(arena.scratch(count, buffer));
+  for (SampleId& s : riders.node) s = none<SampleId>();
+  count = 0;
+  for (SampleId s : Ids<SampleId>(samples.count())) {
+    if (!samples.held[s]) continue;
+    const VertexId v = vertex_of(surface, samples.anchor[s]);
+    const std::uint32_t node = v.is_none() ? UINT32_MAX : features.node_of_vertex[v];
+    if (node != UINT32_MAX) {
+      riders.node[node] = s;
+    } else {
+      riders.rider[count++] = {place_of_anchor(surface, features, samples.anchor[s]), s};
+    }
+  }
+  riders.rider.count = buffer.count = count;
+  merge_sort(riders.rider, buffer, is_before);
+  find_starts(features, riders);
+  return {};
+}
+
+LineInterval interval_of(const Surface& surface, const Backbones& features, const Riders& riders, std::size_t b,
+                         std::size_t i) {
+  const Span<const Rider> on = riders.on(b);
+  if (is_closed(surface, features, b)) return {on[i == 0 ? on.count - 1 : i - 1].sample, on[i].sample};
+  const Span<const HalfedgeId> edges = features.edges(b);
+  const auto node_at = [&](VertexId v) { return riders.node[features.node_of_vertex[v]]; };
+  const SampleId from = i == 0 ? node_at(surface.mesh.origin[edges[0u]]) : on[i - 1].sample;
+  const SampleId to = i == on.count ? node_at(surface.mesh.target(edges[edges.count - 1])) : on[i].sample;
+  return {from, to};
+}
+
+}  // namespace v1
+}  // namespace isolod

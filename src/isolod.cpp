@@ -77,7 +77,9 @@
 #include "result/output.cpp"
 #include "result/stitch.cpp"
 
+#include "relax/coarse_polish.cpp"
 #include "relax/drop_dead.cpp"
+#include "relax/face_score.cpp"
 #include "relax/insert.cpp"
 #include "relax/line_counts.cpp"
 #include "relax/mass_loop.cpp"

@@ -51,8 +51,8 @@ long euler(const Halfedges& mesh) {
 }  // namespace
 
 TEST_CASE("first_mesh: the stages run in the narrated order, each with a name and a share of its own") {
-  const char* order[] = {"repair", "halfedge", "features", "density", "calibrate", "close", "refine",  "atlas",
-                         "lines",  "diffuse",  "charts",   "stitch",  "levels",    "lift",  "validate"};
+  const char* order[] = {"repair", "halfedge", "features", "density", "calibrate", "close",  "refine", "atlas",
+                         "lines",  "diffuse",  "charts",   "stitch",  "thin",      "levels", "lift",   "validate"};
   REQUIRE(stage_entry_count == sizeof order / sizeof order[0]);
   CHECK(stage_entry_count <= Report::stage_capacity);
   for (std::uint32_t i = 0; i < stage_entry_count; ++i) {

@@ -22,7 +22,7 @@ struct First {
   First(const std::string& name, std::size_t triangles, std::uint32_t count)
       : shape(support::made(name, triangles)), view(support::view_of(shape)) {
     REQUIRE(remesher.begin(view, support::with_vertices(count), {}, block.arena).is_ok());
-    support::advance_past(remesher, "stitch");
+    support::advance_past(remesher, "thin");
   }
 
   shapes::Shape shape;

@@ -7,6 +7,7 @@
 
 #include "base/predicates.h"
 #include "isolod/measure.h"
+#include "relax/face_score.h"
 #include "result/lift.h"
 #include "support/checker.h"
 #include "support/frames.h"
@@ -193,4 +194,32 @@ TEST_CASE("relaxation: the same twice") {
     return checker::hash_of(r.lifted());
   };
   CHECK(print() == print());
+}
+
+TEST_CASE("relaxation: with guarded faces none becomes a needle or turns over, however few the samples") {
+  for (const char* name : {"torus", "lattice"}) {
+    for (const std::uint32_t count : {40U, 90U}) {
+      CAPTURE(std::string(name));
+      CAPTURE(count);
+      support::Framed run(support::made(name, 2000), support::with_vertices(count));
+      const auto worst = [&] {
+        double score = 1;
+        for (VertexId v : Ids<VertexId>(count)) {
+          score = std::min(score, star_score(run.s.surface, run.mesh().mesh, run.s.samples, v));
+        }
+        return score;
+      };
+      const double before = worst();
+      const ScratchScope scope(run.block.arena);
+      Relaxation relaxation;
+      RelaxOptions options;
+      options.guards_faces = true;
+      REQUIRE(relaxation.begin(run.s.surface, run.frames, run.mesh(), run.s.samples, options, run.block.arena).is_ok());
+      for (int i = 0; i < 15; ++i) {
+        relaxation.iterate();
+        CHECK(worst() >= std::min(before, fair_score));
+      }
+      CHECK(support::broken(run.mesh()) == "");
+    }
+  }
 }

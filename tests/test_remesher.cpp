@@ -133,6 +133,29 @@ TEST_CASE("remesher: any tiny budget works, or is refused with a greater number"
   }
 }
 
+TEST_CASE("remesher: the least budgets are near those of the topology") {
+  struct Least {
+    const char* name;
+    std::size_t triangles;
+    double feature_angle;
+    std::uint64_t most;  ///< the number named must not be over this
+  };
+  const Least cases_of_least[] = {{"sphere", 320, 0, 4}, {"torus", 500, 0, 9}, {"lattice", 2000, 0, 27},
+                                  {"disk", 60, 0, 7},    {"cube", 48, 30, 12}, {"spheres500", 10000, 0, 2000}};
+  for (const Least& c : cases_of_least) {
+    CAPTURE(std::string(c.name));
+    const shapes::Shape shape = made(c.name, c.triangles);
+    const Run run = support::run(view_of(shape), with_vertices(2, c.feature_angle));
+    REQUIRE(run.status == Status::budget_too_small);
+    const std::uint32_t least = static_cast<std::uint32_t>(run.status.value);
+    CHECK(least <= c.most);
+    CHECK(faults(shape, with_vertices(least, c.feature_angle)) == "");
+    const Run less = support::run(view_of(shape), with_vertices(least - 1, c.feature_angle));
+    CHECK(less.status == Status::budget_too_small);
+    CHECK(less.status.value == least);
+  }
+}
+
 TEST_CASE("remesher: the number that budget_too_small names works") {
   for (const Case& c : small_cases) {
     CAPTURE(std::string(c.name));

@@ -15,11 +15,12 @@ struct Thinned : support::Framed {
   Thinned(const std::string& name, std::size_t triangles, std::uint32_t count, double feature_angle = 0)
       : Framed(support::made(name, triangles), support::with_vertices(count, feature_angle)) {}
 
-  std::size_t thin(std::uint32_t target, bool keep_lines = false) {
+  std::size_t thin(std::uint32_t target, bool keep_lines = false, bool lines_alike = false) {
     const std::size_t back = block.arena.mark().back;
     ThinOptions options;
     options.target_count = target;
     options.keep_lines = keep_lines;
+    options.lines_alike = lines_alike;
     REQUIRE(thin_out(s.surface, options, mesh(), s.samples, block.arena).is_ok());
     CHECK(block.arena.mark().back == back);
     CHECK(mesh().mesh.vertex_count() == s.samples.count());
@@ -82,13 +83,16 @@ TEST_CASE("thin_out: as many as asked for stay, in their order, at their places;
   }
 }
 
-TEST_CASE("thin_out: spheres end with 4, a torus with 9 at most, two handles with 15 at most") {
+TEST_CASE("thin_out: spheres end with 4, a torus with 9 at most, five handles with 27 at most") {
   Thinned sphere("sphere", 2000, 300), torus("torus", 4000, 400);
   CHECK(sphere.thin(1) == 4);
   CHECK(sphere.topology().euler_characteristic == 2);
   const std::size_t left = torus.thin(1);
   CHECK((left >= 7 && left <= 9));
   CHECK(torus.topology().genus == 1);
+  Thinned lattice("lattice", 4000, 900);  // genus 5
+  CHECK(lattice.thin(1) <= 7 + 4 * 5);
+  CHECK(lattice.topology().genus == 5);
 }
 
 TEST_CASE("thin_out: corners stay, lines keep theirs while free samples can go, and all if asked to") {
@@ -105,6 +109,16 @@ TEST_CASE("thin_out: corners stay, lines keep theirs while free samples can go, 
     CHECK(least >= run.held());
     CHECK(same(run.topology(), before));
   }
+}
+
+TEST_CASE("thin_out: lines that are treated alike give their part") {
+  Thinned run("bracket", 3000, 1200, 40);
+  const std::uint32_t held = run.held(), corners = run.at_corners();
+  CHECK(run.thin(600, false, true) == 600);
+  CHECK(run.at_corners() == corners);
+  const double kept = double(run.held() - corners) / (held - corners);
+  CHECK(kept < 0.85);  // 1 if free samples went first
+  CHECK(kept > 0.5);   // a line of half as many has spacings twice as long, the surface 1.4 times
 }
 
 TEST_CASE("thin_out: where density asks for few samples more go than elsewhere") {

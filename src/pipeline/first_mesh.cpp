@@ -2,6 +2,7 @@
 #include "mesh/validate.h"
 #include "pipeline/stage_hashes.h"
 #include "pipeline/state.h"
+#include "relax/coarse_polish.h"
 #include "relax/mend_flat.h"
 #include "result/lift.h"
 #include "result/output.h"
@@ -15,6 +16,7 @@ namespace {
 using State = Remesher::State;
 
 constexpr std::uint32_t least_first_count = 2000;
+constexpr double polished_score = 0.35;
 constexpr double refine_limit = 1.25;  // wished edge lengths
 
 std::uint64_t face_units(const State& s) { return s.surface.mesh.face_count(); }
@@ -81,12 +83,26 @@ std::uint64_t least_budget(const State& s, const DensityIntegrals& integrals) {
   return integrals.corner_count + 3 * std::uint64_t{s.report.boundary_loops} + 4 * std::uint64_t{s.report.components};
 }
 
+/// A first mesh that charts can surely hold, whatever the budget: what is too many is thinned out. It does not depend
+/// on the budget, so that neither does the least that thinning comes to; bounded, since memory is planned from counts
+/// alone.
+std::uint32_t ample_count(const State& s, const DensityIntegrals& integrals) {
+  const std::int64_t handles =
+      std::int64_t{s.report.components} - (integrals.euler_characteristic + s.report.boundary_loops) / 2;
+  const std::int64_t wanted = 240 + 60 * (s.report.components + handles) + 12 * std::int64_t{s.report.boundary_loops} +
+                              4 * std::int64_t{integrals.corner_count};
+  const std::int64_t most = most_first_count(s.view.triangle_count);
+  return static_cast<std::uint32_t>(wanted < most ? wanted : most);
+}
+
 /// Plans at most so many splits, and what the first mesh is made of.
 void plan_run(State& s, const DensityIntegrals& integrals, std::uint32_t most_splits) {
   const std::int64_t handles = std::int64_t{s.report.components} - integrals.euler_characteristic / 2;
   const std::int64_t least = least_first_count + 60 * (s.report.components + handles);
   s.plan = plan_levels(integrals, s.options.vertex_count, most_splits, static_cast<std::uint32_t>(least));
-  s.first_rates = solve_rates(integrals, s.plan.first_count(), s.options.calibration);
+  const std::uint32_t ample = ample_count(s, integrals);
+  if (s.options.remove_seams && s.plan.first_count < ample) s.plan.first_count = ample;
+  s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
 }
 
 /// The rates that the integrals come to, and what the run is made of.
@@ -95,6 +111,7 @@ Status set_rates(State& s) {
   s.report.corners = integrals.corner_count;
   s.rates = solve_rates(integrals, s.options.vertex_count, s.options.calibration);
   plan_run(s, integrals, s.options.remove_seams ? LevelPlan::most_splits : 0);
+  if (s.plan.first_count > s.options.vertex_count && !(s.rates.line > 0)) s.rates = s.first_rates;
   if (s.rates.line > 0 && s.first_rates.line > 0) return {};
   return fail(Status::budget_too_small, Element::count, least_budget(s, integrals));
 }
@@ -129,7 +146,8 @@ Status step_close(State& s, bool& done, std::uint64_t& units) {
 }
 
 Status step_refine(State& s, bool& done, std::uint64_t& units) {
-  if (!s.stage_begun) ISOLOD_TRY(s.refine.begin(s.surface, s.rates.line, refine_limit, *s.arena));
+  if (!s.stage_begun)
+    ISOLOD_TRY(s.refine.begin(s.surface, greater(s.rates.line, s.first_rates.line), refine_limit, *s.arena));
   ISOLOD_TRY(s.refine.step(s.surface, *s.arena));
   units = elements_a_piece;
   done = s.refine.done();
@@ -160,23 +178,43 @@ Status step_atlas(State& s, bool& done, std::uint64_t& units) {
   return {};
 }
 
-/// Too coarse a first mesh does not resolve the shape: its stars fit no map. All is done again from a finer one.
-void restart_finer(State& s) {
+/// Back to where the first mesh begins.
+void restart(State& s) {
   s.arena->rewind_results(s.before_atlas);
   s.arena->rewind_scratch(s.before_atlas);
   for (std::uint8_t& l : s.surface.line) l = l & line_feature;
-  plan_run(s, s.integrate.integrals(), s.plan.splits - 1);
   s.next_stage = atlas_stage;
 }
 
+/// A first mesh that its charts cannot hold is made larger, and thinned out more, as often as there is room for it.
+bool restart_larger(State& s, std::uint64_t least) {
+  const std::uint64_t count = s.plan.first_count, larger = count + count / 4 + 1;
+  const std::uint64_t next = least > larger ? least : larger;
+  if (!s.options.remove_seams || next > most_first_count(s.view.triangle_count)) return false;
+  s.plan.first_count = static_cast<std::uint32_t>(next);
+  s.first_rates = solve_rates(s.integrate.integrals(), s.plan.first_count, s.options.calibration);
+  restart(s);
+  return true;
+}
+
+/// Too coarse a first mesh does not resolve the shape: its stars fit no map. All is done again from a finer one.
+void restart_finer(State& s) {
+  plan_run(s, s.integrate.integrals(), s.plan.splits - 1);
+  restart(s);
+}
+
 Status sample_all_lines(State& s, bool& done) {
-  const std::uint64_t budget = s.plan.first_count(), nodes = s.backbones.node.count;
+  const std::uint64_t budget = s.plan.first_count, nodes = s.backbones.node.count;
   const std::uint32_t room = budget > nodes ? static_cast<std::uint32_t>(budget - nodes) : 0;
   Status status = sample_lines(s.surface, s.backbones, s.first_rates.line, room, s.lines, *s.arena);
   if (status == Status::budget_too_small) status.value += nodes;
   if (status.is_ok() && nodes > budget) status = fail(Status::budget_too_small, Element::count, nodes);
-  if (status != Status::budget_too_small || s.plan.splits == 0) return status;
-  restart_finer(s);
+  if (status != Status::budget_too_small) return status;
+  if (s.plan.splits > 0) {
+    restart_finer(s);
+  } else if (!restart_larger(s, status.value)) {
+    return status;
+  }
   done = true;
   return {};
 }
@@ -190,7 +228,7 @@ Status step_lines(State& s, bool& done, std::uint64_t& units) {
       if (s.options.calibration == Calibration::paper) {
         DensityIntegrals integrals = integrate_density(s.surface);  // once more: now with the seams
         integrals.corner_count = static_cast<std::uint32_t>(s.backbones.node.count);
-        s.first_rates = solve_rates(integrals, s.plan.first_count(), s.options.calibration);
+        s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
       }
       return sample_all_lines(s, done);
     default:
@@ -207,11 +245,11 @@ void count_samples(State& s) {
   report.surface_samples = static_cast<std::uint32_t>(s.places.count);
   report.feature_samples = 0;
   for (std::uint8_t h : s.samples.held) report.feature_samples += h != hold_none;
-  report.seam_samples = s.plan.first_count() - report.feature_samples - report.surface_samples;
+  report.seam_samples = s.plan.first_count - report.feature_samples - report.surface_samples;
 }
 
 Status begin_diffusion(State& s) {
-  const std::uint32_t surface_samples = s.plan.first_count() - s.numbers.node_count - s.numbers.line_count;
+  const std::uint32_t surface_samples = s.plan.first_count - s.numbers.node_count - s.numbers.line_count;
   ISOLOD_TRY(s.arena->result(surface_samples, s.places));
   ISOLOD_TRY(s.arena->result(s.atlas.chart_count() + 1, s.chart_start));
   s.before_diffuse = s.arena->mark();
@@ -244,7 +282,7 @@ std::size_t result_face_count(const State& s) {
     if (is_boundary(s.surface, s.backbones, b)) boundary += s.lines.interval_count(s.surface, s.backbones, b);
   }
   const std::int64_t faces =
-      2 * std::int64_t{s.plan.first_count()} - boundary - 2 * s.integrate.integrals().euler_characteristic;
+      2 * std::int64_t{s.plan.first_count} - boundary - 2 * s.integrate.integrals().euler_characteristic;
   return faces > 0 ? static_cast<std::size_t>(faces) : 0;
 }
 
@@ -261,7 +299,7 @@ void relax_sites(const State& s, std::uint32_t chart, Lloyd& lloyd) {
 }
 
 Status step_charts(State& s, bool& done, std::uint64_t& units) {
-  if (!s.stage_begun) ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.plan.first_count(), *s.arena));
+  if (!s.stage_begun) ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.plan.first_count, *s.arena));
   const ScratchScope scope(*s.arena);
   const std::size_t chart = s.piece++;
   FlatChart flat;
@@ -284,14 +322,45 @@ Status step_charts(State& s, bool& done, std::uint64_t& units) {
 Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
   switch (s.piece++) {
-    case 0:
-      return s.stitch.finish(*s.arena);
+    case 0: {
+      const Status status = s.stitch.finish(*s.arena);
+      done = status == Status::invalid_result && s.plan.splits == 0 && restart_larger(s, 0);
+      return done ? Status() : status;
+    }
     default:
       done = true;
       ISOLOD_TRY(gather_samples(s.sampled(), s.samples, *s.arena));
       count_samples(s);
       return {};
   }
+}
+
+bool is_thinned(const State& s) { return s.plan.splits == 0 && s.plan.first_count > s.options.vertex_count; }
+
+/// Samples that the first mesh has over its budget are taken out again.
+Status step_thin(State& s, bool& done, std::uint64_t& units) {
+  units = 100;
+  done = !is_thinned(s);
+  if (done) return {};
+  if (!s.stage_begun) {
+    s.before_thin = s.arena->mark();
+    ThinOptions options;
+    options.target_count = s.options.vertex_count;
+    options.lines_alike = true;
+    return s.thin.begin(s.surface, options, s.stitch.mesh(), s.samples, *s.arena);
+  }
+  if (!s.thin.done()) {
+    s.thin.step();
+    return {};
+  }
+  units = face_units(s);
+  done = true;
+  ISOLOD_TRY(s.thin.finish(*s.arena));
+  s.arena->rewind_scratch(s.before_thin);
+  s.is_thinnest = s.samples.count() > s.options.vertex_count;
+  if (s.is_thinnest) return fail(Status::budget_too_small, Element::count, s.samples.count());
+  polish_coarse(s.surface, polished_score, s.stitch.mesh(), s.samples);
+  return {};
 }
 
 Status step_levels(State& s, bool& done, std::uint64_t& units) {
@@ -303,6 +372,7 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
     LevelOptions options;
     options.line_rate = s.rates.line;
     options.weight = s.options.weight;
+    if (is_thinned(s)) options.fine_iterations = options.coarse_iterations;
     s.levels.begin(s.plan, options);
   }
   ISOLOD_TRY(s.levels.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
@@ -319,6 +389,7 @@ Status step_lift(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
   switch (s.piece++) {
     case 0:
+      if (is_thinned(s)) polish_coarse(s.surface, polished_score, s.stitch.mesh(), s.samples);
       mend_flat_faces(s.surface, s.stitch.mesh(), s.samples);
       return {};
     case 1:
@@ -359,8 +430,8 @@ const StageEntry stage_entries[] = {
     {"refine", step_refine, hash_surface, 0.02},     {"atlas", step_atlas, hash_atlas, 0.4},
     {"lines", step_lines, hash_line_samples, 0.01},  {"diffuse", step_diffuse, hash_places, 0.02},
     {"charts", step_charts, hash_places, 0.4},       {"stitch", step_stitch, hash_samples, 0.02},
-    {"levels", step_levels, hash_samples, 0.5},      {"lift", step_lift, hash_result, 0.01},
-    {"validate", step_validate, hash_result, 0.01},
+    {"thin", step_thin, hash_samples, 0.01},         {"levels", step_levels, hash_samples, 0.5},
+    {"lift", step_lift, hash_result, 0.01},          {"validate", step_validate, hash_result, 0.01},
 };
 const std::uint32_t stage_entry_count = sizeof stage_entries / sizeof stage_entries[0];
 

@@ -40,6 +40,7 @@ LevelPlan plan_levels(const DensityIntegrals& integrals, std::uint32_t vertex_co
     plan.count[level] = static_cast<std::uint32_t>(count_at(integrals, rate));
   }
   plan.count[plan.splits] = vertex_count;
+  plan.first_count = plan.count[0];
   return plan;
 }
 

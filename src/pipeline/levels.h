@@ -14,13 +14,12 @@
 namespace isolod {
 inline namespace v1 {
 
-/// How many samples each level has: the first mesh those of level 0, the last V.
+/// How many samples each level has: the last V.
 struct LevelPlan {
   static constexpr std::uint32_t most_splits = 12;
   std::uint32_t splits = 0;
   std::uint32_t count[most_splits + 1] = {};
-
-  std::uint32_t first_count() const { return count[0]; }
+  std::uint32_t first_count = 0;  ///< of the first mesh: as many as level 0, or more, which are then thinned out
 };
 
 /// As many splits, up to `most_splits`, as leave the first level at least `least_first` samples, a third of them at most

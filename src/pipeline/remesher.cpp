@@ -177,13 +177,14 @@ Status remesh(const MeshView& view, const Options& options, const MeshSink& sink
   Status status = remesher.begin(view, options, hooks, arena);
   if (status.is_ok()) status = remesher.advance(UINT64_MAX - 1);
   if (report != nullptr && remesher.state() != nullptr) *report = remesher.report();
+  const bool is_named_well = remesher.state() != nullptr && remesher.state()->is_thinnest;
   if (status.is_ok()) status = deliver(remesher.result(), sink);
   arena.rewind_results(mark);
   arena.rewind_scratch(mark);
   if (status == Status::out_of_memory) {
     const std::size_t enough = required_memory(view.vertex_count, view.triangle_count, options);
     if (status.value < enough) status.value = enough;
-  } else if (status == Status::budget_too_small) {
+  } else if (status == Status::budget_too_small && !is_named_well) {
     status.value = number_that_works(view, options, status.value, arena);
   }
   if (report != nullptr) report->status = status;
@@ -191,7 +192,8 @@ Status remesh(const MeshView& view, const Options& options, const MeshSink& sink
 }
 
 std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options) {
-  const std::size_t samples = options.vertex_count;
+  const std::size_t first = options.remove_seams ? most_first_count(triangle_count) : 0;
+  const std::size_t samples = options.vertex_count > first ? options.vertex_count : first;
   // Refinement splits a triangle into pieces of about a wished edge length; long thin ones are the worst, up to about
   // root V pieces each, and no more of them than there are samples can be long.
   const std::size_t long_ones = triangle_count < samples ? triangle_count : samples;

@@ -47,7 +47,7 @@ std::uint64_t hash_surface(const State& s) {
 }
 std::uint64_t hash_lines(const State& s) { return hash_of(s.surface.line, s.surface.corner); }
 std::uint64_t hash_density(const State& s) { return hash_of(s.surface.wedge_density, s.surface.given_line_density); }
-std::uint64_t hash_rates(const State& s) { return hash_of(s.rates, s.first_rates, s.plan.splits, s.plan.first_count()); }
+std::uint64_t hash_rates(const State& s) { return hash_of(s.rates, s.first_rates, s.plan.splits, s.plan.first_count); }
 std::uint64_t hash_closed(const State& s) {
   return hash_of(s.surface.mesh.origin, s.surface.midpoint, s.surface.line, s.surface.corner, s.rates);
 }

@@ -6,6 +6,7 @@
 #include "pipeline/charting.h"
 #include "pipeline/levels.h"
 #include "plane/lloyd.h"
+#include "relax/thin_out.h"
 #include "result/fit.h"
 #include "result/stitch.h"
 #include "sample/calibrate.h"
@@ -60,6 +61,9 @@ struct Remesher::State {
   LevelPlan plan;
   ArenaMark before_atlas;
   Rates first_rates;  ///< of the first mesh
+  ThinOut thin;
+  ArenaMark before_thin;
+  bool is_thinnest = false;  ///< the budget is too small, by no more than the number that the status names
   Levels levels;
   Span<double> positions;
   Fit fit;
@@ -78,6 +82,9 @@ struct StageEntry {
 
 extern const StageEntry stage_entries[];
 extern const std::uint32_t stage_entry_count;
+
+/// More samples no first mesh gets than this, unless the budget itself is larger.
+inline std::size_t most_first_count(std::size_t triangle_count) { return 2000 + triangle_count / 4; }
 
 /// Places in `stage_entries`: where a run starts again, and behind which a budget is known to be enough.
 constexpr std::uint32_t atlas_stage = 7, lines_stage = 8;

@@ -3,6 +3,7 @@
 #include "base/status.h"
 #include "relax/drop_dead.h"
 #include "relax/face_mass.h"
+#include "relax/face_score.h"
 #include "relax/space_flip.h"
 
 namespace isolod {
@@ -12,23 +13,6 @@ namespace {
 
 constexpr std::uint32_t most_flips_around = 32;
 constexpr std::uint32_t most_tries_to_unlock = 4000;
-constexpr double fair_score = 0.2;  // of a face that may well be made
-
-/// The mesh alone knows the corners where other than two lines meet, but not those where one turns.
-bool is_at_corner(const Surface& surface, const LineAnchor& anchor) {
-  if (anchor.along != 0 && anchor.along != 1) return false;
-  const HalfedgeId h = anchor.along == 0 ? anchor.halfedge : next(anchor.halfedge);
-  return surface.corner[surface.mesh.origin[h]] != 0;
-}
-
-/// Of the surface at a sample; on a line the mean of both sides, none at a corner of the lines.
-Vec3 normal_at(const Surface& surface, const Samples& samples, SampleId s) {
-  if (!samples.held[s]) return unit(area_vector(surface, samples.place[s].face));
-  if (is_at_corner(surface, samples.anchor[s])) return {0, 0, 0};
-  const HalfedgeId h = samples.anchor[s].halfedge, g = surface.mesh.twin[h];
-  const Vec3 normal = unit(area_vector(surface, face(h)));
-  return g.is_none() ? normal : unit(normal + unit(area_vector(surface, face(g))));
-}
 
 }  // namespace
 
@@ -56,29 +40,37 @@ Status ThinOut::begin(const Surface& surface, const ThinOptions& options, Triang
 
 bool ThinOut::is_candidate(VertexId v) const { return !mesh_->mesh.outgoing[v].is_none() && stays_[v] == 0; }
 
-/// The density in the star of v, in that of both sides if v is on the boundary.
+/// The density in the star of v. A sample on a line stands for as much as one on the surface does whose neighbours are
+/// as far: its star alone would tell how near the next line is.
 double ThinOut::star_mass(VertexId v) const {
   const Halfedges& mesh = mesh_->mesh;
+  const SampleId s{v.value};
+  if (samples_->held[s]) {
+    constexpr double nine_root_three = 15.588457268119896;
+    const double spacing = line_spacing(v);
+    return nine_root_three * density_at(*surface_, *samples_, s) * spacing * spacing;
+  }
   double mass = 0;
   visit_outgoing(mesh, v, [&](HalfedgeId h) { mass += face_mass(*surface_, mesh, *samples_, face(h)); });
-  return mesh.is_boundary(mesh.outgoing[v]) ? 2 * mass : mass;
+  return mass;
 }
 
-/// 1 for an equilateral face, 0 for one without area; below 0 for one that is turned against the surface at its
-/// corners.
-double ThinOut::face_score(const VertexId (&corners)[3]) const {
-  Vec3 at[3], normal{0, 0, 0};
-  double squares = 0;
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    at[k] = position_of(*surface_, *samples_, SampleId{corners[k].value});
-    normal = normal + normal_at(*surface_, *samples_, SampleId{corners[k].value});
-  }
-  for (std::uint32_t k = 0; k < 3; ++k) squares += dot(at[(k + 1) % 3] - at[k], at[(k + 1) % 3] - at[k]);
-  const Vec3 area = cross(at[1] - at[0], at[2] - at[0]);
-  const double turn = dot(unit(area), unit(normal));
-  constexpr double two_root_three = 3.4641016151377544;
-  if (turn < 0) return turn;
-  return squares > 0 ? two_root_three * length(area) / squares : 0;
+/// The mean length of the line's edges at v.
+double ThinOut::line_spacing(VertexId v) const {
+  const Halfedges& mesh = mesh_->mesh;
+  const auto at = [&](VertexId w) { return position_of(*surface_, *samples_, SampleId{w.value}); };
+  double sum = 0, count = 0;
+  const auto add = [&](VertexId w) { sum += distance(at(v), at(w)), count += 1; };
+  visit_outgoing(mesh, v, [&](HalfedgeId h) {
+    if (mesh_->is_fixed(h) || mesh.is_boundary(h)) add(mesh.target(h));
+    if (mesh.is_boundary(prev(h))) add(mesh.apex(h));
+  });
+  return count > 0 ? sum / count : 0;
+}
+
+/// What a sample's key has over its mass.
+double ThinOut::line_rank(VertexId v) const {
+  return samples_->held[SampleId{v.value}] && !options_.lines_alike ? 3 * rank_ : 0;
 }
 
 /// The worst face of the star of h's origin when that is merged into h's target.
@@ -88,7 +80,7 @@ double ThinOut::score_after(HalfedgeId h) const {
   double worst = 1;
   visit_outgoing(mesh, mesh.origin[h], [&](HalfedgeId out) {
     const VertexId a = mesh.target(out), b = mesh.apex(out);
-    if (a != to && b != to) worst = smaller(worst, face_score({to, a, b}));
+    if (a != to && b != to) worst = smaller(worst, face_score(*surface_, *samples_, {to, a, b}));
   });
   return worst;
 }
@@ -106,7 +98,7 @@ ThinOut::Choice ThinOut::best_choice(VertexId v) const {
 }
 
 void ThinOut::push(VertexId v) {
-  if (is_candidate(v)) heap_.push(v.value, star_mass(v) + (samples_->held[SampleId{v.value}] ? 3 * rank_ : 0));
+  if (is_candidate(v)) heap_.push(v.value, star_mass(v) + line_rank(v));
 }
 
 void ThinOut::push_star(VertexId v) {
@@ -123,10 +115,8 @@ bool ThinOut::flip_if_better(HalfedgeId h) {
   Triangulation& mesh = *mesh_;
   const HalfedgeId g = mesh.mesh.twin[h];
   if (g.is_none() || mesh.is_fixed(h) || !wants_flip_in_space(*surface_, mesh, *samples_, h)) return false;
-  const VertexId a = mesh.mesh.origin[h], b = mesh.mesh.origin[g], c = mesh.mesh.apex(h), d = mesh.mesh.apex(g);
-  const double before = smaller(face_score({a, b, c}), face_score({b, a, d}));
-  const double after = smaller(face_score({d, b, c}), face_score({c, a, d}));
-  if (!(after > 0) && !(after > before)) return false;
+  const FlipScores scores = flip_scores(*surface_, mesh.mesh, *samples_, h);
+  if (!(scores.after > 0) && !(scores.after > scores.before)) return false;
   flip(mesh, h);
   return true;
 }
@@ -181,7 +171,7 @@ void ThinOut::step() {
   const Choice choice = best_choice(v);
   if (choice.halfedge.is_none()) return;
   const double rank = (choice.score > fair_score ? 0 : choice.score > 0 ? 1 : 2);
-  const double key = star_mass(v) + rank_ * (rank + (samples_->held[SampleId{v.value}] ? 3 : 0));
+  const double key = star_mass(v) + rank * rank_ + line_rank(v);
   if (key > entry.key) {
     heap_.push(v.value, key);
   } else {

@@ -3,8 +3,8 @@
 // The sample whose star carries the least density goes first, merged into the neighbour that leaves the best worst face
 // (an edge collapse, after Hoppe, DeRose, Duchamp, McDonald and Stuetzle 1993); edges around are then flipped by their
 // angles. A sample that could only go by turning a face against the surface waits until no other can go, and one on a
-// line longer than that; corners stay. The topology stays the same (`can_collapse`). Where no sample at all can go,
-// flips picked by a seeded generator are made until one can, up to a bound.
+// line, unless lines are treated alike, longer than that; corners stay. The topology stays the same (`can_collapse`).
+// Where no sample at all can go, flips picked by a seeded generator are made until one can, up to a bound.
 #pragma once
 
 #include "base/heap.h"
@@ -17,12 +17,13 @@ inline namespace v1 {
 struct ThinOptions {
   std::uint32_t target_count = 0;  ///< samples that are to be left
   bool keep_lines = false;         ///< held samples stay all
+  bool lines_alike = false;        ///< held samples go where they are too close, as free ones do, and not last
 };
 
 /// A stage: begin, step until done, finish.
 class ThinOut {
  public:
-  /// `surface`, `mesh` and `samples` must stay until `finish`. Scratch: 25 bytes a sample.
+  /// `surface`, `mesh` and `samples` must stay until `finish`. Scratch: 17 bytes a sample.
   Status begin(const Surface& surface, const ThinOptions& options, Triangulation& mesh, Samples& samples, Arena& arena);
   /// Looks at one sample, or makes one flip where none can go. O(valence^3) time, O(log n) for the queue.
   void step();
@@ -38,7 +39,8 @@ class ThinOut {
   };
   bool is_candidate(VertexId v) const;
   double star_mass(VertexId v) const;
-  double face_score(const VertexId (&corners)[3]) const;
+  double line_spacing(VertexId v) const;
+  double line_rank(VertexId v) const;
   double score_after(HalfedgeId h) const;
   Choice best_choice(VertexId v) const;
   void push(VertexId v);
@@ -54,7 +56,7 @@ class ThinOut {
   ThinOptions options_;
   IndexedHeap heap_;
   Span<std::uint8_t> stays_;  // per sample: a corner, or held where lines are kept
-  double rank_ = 0;           // more than any star's mass
+  double rank_ = 0;           // as good as more than any mass
   std::uint32_t left_ = 0;
   std::uint32_t tries_ = 0;  // to unlock, since the last removal
   std::uint64_t random_ = 0;

@@ -30,7 +30,7 @@ inline isolod::Frames frames_of(const isolod::Surface& surface, double line_rate
   return frames;
 }
 
-/// A run over a shape that is stopped behind its stitching, with the frames of its surface. A wish makes its density
+/// A run over a shape that is stopped before its levels, with the frames of its surface. A wish makes its density
 /// the given one. `s` is a copy of the run's state that a test may change; its spans lie in the run's arena.
 class Framed {
  public:
@@ -41,7 +41,7 @@ class Framed {
       options.density = isolod::DensitySource::given;
     }
     REQUIRE(remesher.begin(view, options, {}, block.arena).is_ok());
-    advance_past(remesher, "stitch");
+    advance_past(remesher, "thin");
     s = *remesher.state();
     frames = frames_of(s.surface, s.rates.line, block.arena);
   }

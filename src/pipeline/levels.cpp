@@ -90,6 +90,20 @@ Status Levels::match_lines(const Surface& surface, Triangulation& mesh, Samples&
   return sample_features_anew(surface, features_, {options_.weight, is_finest()}, samples, arena);
 }
 
+/// What is too much goes from the surface first, and where nothing there can go, from the lines.
+Status Levels::begin_thin(const Surface& surface, bool keep_lines, Triangulation& mesh, Samples& samples,
+                          Arena& arena) {
+  const bool is_stuck = phase_ == Phase::thin && !thins_surface_;
+  scratch_ = arena.mark();
+  phase_ = samples.count() > plan_.count[level_] && !is_stuck ? Phase::thin : Phase::insert;
+  thins_surface_ = keep_lines;
+  if (phase_ == Phase::insert) return {};
+  ThinOptions options;
+  options.target_count = plan_.count[level_];
+  options.keep_lines = keep_lines;
+  return thin_out_.begin(surface, options, mesh, samples, arena);
+}
+
 Status Levels::begin_split(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
   std::size_t edges = 0;
   for (HalfedgeId h : Ids<HalfedgeId>(mesh.mesh.halfedge_count())) {
@@ -135,19 +149,16 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
       return find_features(surface, arena);
     case Phase::lines:
       ISOLOD_TRY(match_lines(surface, mesh, samples, arena));
-      scratch_ = arena.mark();
-      phase_ = samples.count() > plan_.count[level_] ? Phase::thin : Phase::insert;
-      if (phase_ == Phase::insert) return {};
-      return thin_out_.begin(surface, {plan_.count[level_], true}, mesh, samples, arena);
+      return begin_thin(surface, true, mesh, samples, arena);
     case Phase::thin:
       thin_out_.step();
       if (!thin_out_.done()) return {};
-      phase_ = Phase::insert;
       ISOLOD_TRY(thin_out_.finish(arena));
       arena.rewind_scratch(scratch_);
-      return {};
+      return begin_thin(surface, false, mesh, samples, arena);
     case Phase::insert:
       phase_ = Phase::begin_relax;
+      if (samples.count() >= plan_.count[level_]) return {};
       return insert_where_sparse(surface, plan_.count[level_] - static_cast<std::uint32_t>(samples.count()), mesh,
                                  samples, arena);
     case Phase::begin_relax:

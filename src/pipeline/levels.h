@@ -51,6 +51,7 @@ class Levels {
   enum class Phase : std::uint8_t { features, lines, thin, insert, begin_relax, relax, begin_split, split, done, unresolved };
   Status find_features(Surface& surface, Arena& arena);
   Status match_lines(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
+  Status begin_thin(const Surface& surface, bool keep_lines, Triangulation& mesh, Samples& samples, Arena& arena);
   Status begin_split(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   void relax(std::size_t sample_count, Arena& arena);
   bool is_finest() const { return level_ == plan_.splits; }
@@ -63,6 +64,7 @@ class Levels {
   std::uint32_t level_ = 0, iteration_ = 0;
   Backbones features_;
   ThinOut thin_out_;
+  bool thins_surface_ = false;  // and not the lines
   Relaxation relaxation_;
   SplitEdges split_;
   ArenaMark scratch_;

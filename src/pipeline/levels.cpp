@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t trial_iterations = 15;
 constexpr double most_bent = 0.002;       // of the samples of a first level that is to be split
+constexpr std::uint32_t cover_period = 3;
 constexpr std::uint32_t loop_period = 10;  // iterations from one closing of the loop to the next
 constexpr std::uint32_t quiet_end = 5;     // iterations of a level behind the last one
 
@@ -54,12 +55,17 @@ void Levels::begin(const LevelPlan& plan, const LevelOptions& options) {
 double Levels::share_done() const {
   double whole = 0, before = 0, cost = 1;
   for (std::uint32_t l = 0; l <= plan_.splits; ++l, cost *= 4) {
-    const double iterations = l == plan_.splits ? options_.fine_iterations : options_.coarse_iterations;
-    const double share = l < level_ ? 1 : l > level_ || phase_ != Phase::relax ? 0 : iteration_ / iterations;
-    before += cost * iterations * share;
-    whole += cost * iterations;
+    const double all = cost * iterations(l);
+    const double share = l < level_ ? 1 : l > level_ || phase_ != Phase::relax ? 0 : iteration_ / (1.0 * iterations(l));
+    before += all * share;
+    whole += all;
   }
   return before / whole;
+}
+
+std::uint32_t Levels::iterations(std::uint32_t level) const {
+  if (level < plan_.splits) return options_.coarse_iterations;
+  return plan_.splits == 0 ? options_.only_iterations : options_.fine_iterations;
 }
 
 double Levels::line_rate(std::uint32_t level) const {
@@ -80,7 +86,7 @@ Status Levels::find_features(Surface& surface, Arena& arena) {
 /// The number of samples on every feature that this level wishes, and their places.
 Status Levels::match_lines(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
   if (features() == nullptr) return {};
-  if (level_ > 0) {
+  if (level_ > 0 || options_.has_other_lines) {
     const ArenaMark mark = arena.mark();
     LineSamples wished;
     ISOLOD_TRY(sample_lines(surface, features_, line_rate(level_), plan_.count[level_], wished, arena));
@@ -134,12 +140,13 @@ void Levels::relax(std::size_t sample_count, Arena& arena) {
     phase_ = Phase::unresolved;
     return;
   }
-  const std::uint32_t last = is_finest() ? options_.fine_iterations : options_.coarse_iterations;
+  const std::uint32_t last = iterations(level_);
   ++iteration_;
   if (iteration_ % loop_period == 0 && iteration_ + quiet_end <= last) relaxation_.close_loop_next();
+  if (iteration_ % cover_period == cover_period - 1) relaxation_.cover_next();
   if (iteration_ < last) return;
   arena.rewind_scratch(scratch_);
-  phase_ = is_finest() ? Phase::done : Phase::begin_split;
+  phase_ = is_finest() ? Phase::done : Phase::level_end;
 }
 
 Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
@@ -164,9 +171,12 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
     case Phase::begin_relax:
       phase_ = Phase::relax;
       iteration_ = 0;
-      return relaxation_.begin(surface, features(), mesh, samples, {options_.weight}, arena);
+      return relaxation_.begin(surface, features(), mesh, samples, {options_.weight, 1.8, line_rate(level_)}, arena);
     case Phase::relax:
       relax(samples.count(), arena);
+      return {};
+    case Phase::level_end:
+      phase_ = Phase::begin_split;
       return {};
     case Phase::begin_split:
       phase_ = Phase::split;

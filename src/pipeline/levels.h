@@ -32,6 +32,8 @@ struct LevelOptions {
   LloydWeight weight = LloydWeight::equal;
   std::uint32_t coarse_iterations = 120;
   std::uint32_t fine_iterations = 30;
+  std::uint32_t only_iterations = 80;  ///< where there is one level alone
+  bool has_other_lines = false;        ///< the first level comes from a mesh of another count: its lines are matched too
 };
 
 /// A stage: begin, step until done.
@@ -41,6 +43,9 @@ class Levels {
   /// A piece of an iteration or of a split, one sample taken out, or a linear pass over the features.
   Status step(Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   bool done() const { return phase_ == Phase::done; }
+  /// Whether a level other than the last has been relaxed and is about to be split; the next step goes on.
+  bool is_level_end() const { return phase_ == Phase::level_end; }
+  std::uint32_t level_count() const { return plan_.count[level_]; }  ///< of the level that is worked on
   /// Whether the first level was given up because too many of its stars are folded up, and there is a finer one to start
   /// from.
   bool is_unresolved() const { return phase_ == Phase::unresolved; }
@@ -48,13 +53,14 @@ class Levels {
   double share_done() const;
 
  private:
-  enum class Phase : std::uint8_t { features, lines, thin, insert, begin_relax, relax, begin_split, split, done, unresolved };
+  enum class Phase : std::uint8_t { features, lines, thin, insert, begin_relax, relax, level_end, begin_split, split, done, unresolved };
   Status find_features(Surface& surface, Arena& arena);
   Status match_lines(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   Status begin_thin(const Surface& surface, bool keep_lines, Triangulation& mesh, Samples& samples, Arena& arena);
   Status begin_split(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   void relax(std::size_t sample_count, Arena& arena);
   bool is_finest() const { return level_ == plan_.splits; }
+  std::uint32_t iterations(std::uint32_t level) const;
   double line_rate(std::uint32_t level) const;
   const Backbones* features() const { return features_.start.count > 1 ? &features_ : nullptr; }
 

@@ -15,6 +15,9 @@ constexpr std::uint32_t most_halvings = 3;
 constexpr std::uint32_t flip_rounds = 2;
 constexpr double least_cosine = 0.1;     // between a face and its star, for it to count as not turned over
 constexpr double least_upright = 0.5;    // length of the sum of a star's area vectors over the sum of their lengths
+constexpr double far_reach = 0.8;        // wished edge lengths; a regular cell reaches 0.58
+constexpr double pull = 0.3;             // of the way to what is far
+constexpr double longest_step = 0.25;    // wished edge lengths
 constexpr double most_of_interval = 0.3;  // that a sample slides at once
 
 }  // namespace
@@ -155,17 +158,37 @@ bool Relaxation::slide_by(SampleId s, Vec3 way) {
 
 /// The way that a sample is to go. On a line its part along that counts; else the part along the star, or along the
 /// surface where the star is folded up: that cell is rough, and the step plain.
+/// How far the cell of a sample reaches, in wished edge lengths.
+double Relaxation::reach_of(SampleId s) const {
+  return square_root(tiles_.reach(s).squared * site_[s].density) * options_.line_rate;
+}
+
+/// Part of the way to the farthest face of the cell.
+Vec3 Relaxation::pull_of(SampleId s) const {
+  const Vec3 there = position_of(*surface_, SurfacePlace{tiles_.reach(s).face, 1.0 / 3, 1.0 / 3});
+  return pull * flatten(there - site_[s].position, area_vector(*surface_, samples_.place[s].face));
+}
+
+/// The way that a sample is to go. On a line its part along that counts; else the part along the star, or along the
+/// surface where the star is folded up: that cell is rough, and the step plain.
 Vec3 Relaxation::step_of(SampleId s) const {
   const Vec3 way = 1 / cell_[s].weight * cell_[s].moment;
   if (is_bent_[s]) return flatten(way, area_vector(*surface_, samples_.place[s].face));
   if (samples_.held[s]) return options_.step * way;
+  if (covers_ && reach_of(s) > far_reach) return pull_of(s);
   return options_.step * flatten(way, StarNormal(mesh_->mesh, site_, vertex(s)).sum);
+}
+
+/// No longer than a quarter of a wished edge.
+Vec3 Relaxation::shortened(SampleId s, Vec3 way) const {
+  const double most = longest_step / (options_.line_rate * square_root(site_[s].density)), size = length(way);
+  return size > most ? most / size * way : way;
 }
 
 void Relaxation::move(SampleId s) {
   const bool slides = samples_.held[s] == hold_line;
   if (samples_.held[s] == hold_place || !(cell_[s].weight > 0)) return;
-  Vec3 way = step_of(s);
+  Vec3 way = shortened(s, step_of(s));
   for (std::uint32_t halving = 0; halving <= most_halvings; ++halving, way = 0.5 * way) {
     if (halving == 1) ++report_.shortened;
     if (slides ? slide_by(s, way) : move_by(s, way)) {
@@ -203,6 +226,7 @@ bool Relaxation::step() {
     case Phase::look:
       if (!sweep_.over<SampleId>(samples_.count(), [&](SampleId s) { look(s); })) return false;
       report_ = {};
+      tiles_.clear_reach();
       phase_ = Phase::cells;
       return false;
     case Phase::cells: {
@@ -216,7 +240,7 @@ bool Relaxation::step() {
       phase_ = Phase::tiles;
       return false;
     case Phase::tiles:
-      if (report_.bent > 0 && !sweep_.over<FaceId>(surface_->mesh.face_count(), [&](FaceId f) { settle(f); })) {
+      if ((report_.bent > 0 || covers_) && !sweep_.over<FaceId>(surface_->mesh.face_count(), [&](FaceId f) { settle(f); })) {
         return false;
       }
       if (closes_loop_) loop_.start();
@@ -234,6 +258,7 @@ bool Relaxation::step() {
       if (!sweep_.over<HalfedgeId>(mesh.halfedge_count(), [&](HalfedgeId h) { flip_edge(h); })) return false;
       if (++round_ < flip_rounds) return false;
       round_ = 0;
+      covers_ = false;
       phase_ = Phase::look;
       return true;
   }

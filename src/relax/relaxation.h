@@ -26,6 +26,7 @@ inline namespace v1 {
 struct RelaxOptions {
   LloydWeight weight = LloydWeight::equal;
   double step = 1.8;  ///< times the way to the centroid
+  double line_rate = 0;  ///< R_f of this level: 1 / (R_f sqrt(d_s)) is the wished edge length
 };
 
 /// What one iteration came to.
@@ -45,6 +46,8 @@ class Relaxation {
 
   /// The next iteration feeds the cells' masses back into the corrections (design: closed loop).
   void close_loop_next() { closes_loop_ = true; }
+  /// In the next iteration samples whose cells reach too far, as at a tip that the mesh has slipped off, go there.
+  void cover_next() { covers_ = true; }
 
   /// A range of samples, faces or edges; true at the end of the iteration.
   bool step();
@@ -57,7 +60,10 @@ class Relaxation {
   void look(SampleId s);
   void look_for_bend(SampleId s);
   void settle(FaceId f) { tiles_.settle(*mesh_, samples_, site_, f, is_bent_, cell_); }
+  double reach_of(SampleId s) const;
+  Vec3 pull_of(SampleId s) const;
   Vec3 step_of(SampleId s) const;
+  Vec3 shortened(SampleId s, Vec3 way) const;
   void move(SampleId s);
   bool move_by(SampleId s, Vec3 way);
   bool slide_by(SampleId s, Vec3 way);
@@ -78,6 +84,7 @@ class Relaxation {
   Sweep sweep_;
   std::uint32_t round_ = 0;  // of flips
   bool closes_loop_ = false;
+  bool covers_ = false;
   MassLoop loop_;
   Tiles tiles_;
   Span<std::uint8_t> is_bent_;  // per sample: its star is folded up

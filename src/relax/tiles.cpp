@@ -17,6 +17,7 @@ Status Tiles::begin(const Surface& surface, const Samples& samples, Arena& arena
   surface_ = &surface;
   const std::size_t count = surface.mesh.face_count();
   ISOLOD_TRY(arena.scratch(count, owner_));
+  ISOLOD_TRY(arena.scratch(samples.count(), reach_));
   const ScratchScope scope(arena);
   Span<FaceId> queue;
   ISOLOD_TRY(arena.scratch(count, queue));
@@ -66,6 +67,7 @@ void Tiles::settle(const Triangulation& mesh, const Samples& samples, Span<const
     if (best == from) break;
   }
   owner_[f] = best;
+  if (least > reach_[best].squared) reach_[best] = {f, least};
   if (!is_bent[best]) return;
   const double area = 0.5 * length(normal), weight = area * density * density;
   cell[best].weight += weight;

@@ -22,10 +22,20 @@ class Tiles {
   void settle(const Triangulation& mesh, const Samples& samples, Span<const Site> site, FaceId f,
               Span<const std::uint8_t> is_bent, Span<StarCell> cell);
 
-  SampleId owner(FaceId f) const { return owner_[f]; }
+  /// Forgets how far cells reach.
+  void clear_reach() {
+    for (Reach& r : reach_) r = {none<FaceId>(), 0};
+  }
+  /// The face of the sample's cell whose middle is farthest from it, and the square of that distance.
+  struct Reach {
+    FaceId face;
+    double squared;
+  };
+  const Reach& reach(SampleId s) const { return reach_[s]; }
 
  private:
   const Surface* surface_ = nullptr;
+  Span<Reach> reach_;     // per sample
   Span<SampleId> owner_;  // none where no sample can be reached
 };
 

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "relax/face_score.h"
-#include "support/frames.h"
+#include "support/stitched.h"
 #include "support/plane_shapes.h"
 
 using namespace isolod;
 
 namespace {
 
-double worst_score(support::Framed& run) {
+double worst_score(support::Stitched& run) {
   double worst = 1;
   for (VertexId v : Ids<VertexId>(run.mesh().mesh.vertex_count())) {
     worst = std::min(worst, star_score(run.s.surface, run.mesh().mesh, run.s.samples, v));
@@ -25,7 +25,7 @@ double worst_score(support::Framed& run) {
 TEST_CASE("coarse_polish: every other sample thrown onto its neighbour's place comes back to a good one") {
   for (const char* name : {"sphere", "torus"}) {
     CAPTURE(std::string(name));
-    support::Framed run(support::made(name, 2000), support::with_vertices(60));
+    support::Stitched run(support::made(name, 2000), support::with_vertices(60));
     const long euler = support::euler(run.mesh());
     const double before = worst_score(run);
     for (std::uint32_t i = 0; i < 60; i += 6) {
@@ -43,7 +43,7 @@ TEST_CASE("coarse_polish: every other sample thrown onto its neighbour's place c
 }
 
 TEST_CASE("coarse_polish: what is good already stays, held samples stay always") {
-  support::Framed run(support::made("bracket", 2000), support::with_vertices(300, 40));
+  support::Stitched run(support::made("bracket", 2000), support::with_vertices(300, 40));
   std::vector<LineAnchor> anchors;
   std::vector<Vec3> before;
   for (std::uint32_t i = 0; i < 300; ++i) {

@@ -8,7 +8,7 @@
 #include "pipeline/state.h"
 #include "result/lift.h"
 #include "support/plane_shapes.h"
-#include "support/stages.h"
+#include "support/stitched.h"
 
 using namespace isolod;
 
@@ -21,7 +21,7 @@ struct Case {
 };
 const Case cases[] = {{"cube", 1200, 30}, {"bracket", 1500, 30}, {"plate", 1500, 0}};
 
-/// A run whose charts are done, and, on demand, stitched.
+/// A run whose charts are done and stitched, its seams lines no more.
 struct Charted {
   explicit Charted(const Case& c, std::uint32_t count = 900)
       : shape(support::made(c.name, c.triangles)), view(support::view_of(shape)) {
@@ -31,18 +31,13 @@ struct Charted {
     REQUIRE(s.stitch.finish(block.arena).is_ok());
     REQUIRE(gather_samples(s.sampled(), s.samples, block.arena).is_ok());
     surface = s.surface;
+    lines = support::features_alone(surface, block.arena);
   }
-  void sample_anew() {
+  void sample_anew(bool keep_shape = true) {
     const ArenaMark before = block.arena.mark();
-    REQUIRE(sample_features_anew(surface, LloydWeight::equal, s.samples, block.arena).is_ok());
+    REQUIRE(sample_features_anew(surface, lines, {LloydWeight::equal, keep_shape}, s.samples, block.arena).is_ok());
     CHECK(block.arena.mark().front == before.front);
     CHECK(block.arena.mark().back == before.back);
-  }
-  /// The feature skeleton without seams.
-  Backbones features() {
-    Backbones result;
-    REQUIRE(chain_backbones(surface, result, block.arena).is_ok());
-    return result;
   }
 
   shapes::Shape shape;
@@ -51,9 +46,8 @@ struct Charted {
   Remesher remesher;
   Remesher::State s;
   Surface surface;
+  Backbones lines;
 };
-
-bool is_seam(std::uint8_t bits) { return (bits & line_seam) != 0; }
 
 /// The backbone of a held sample that is at no corner, with its place on it in edges; -1 at a corner.
 double on_backbone(const Surface& surface, const Backbones& lines, const LineAnchor& anchor, std::size_t& backbone) {
@@ -104,20 +98,17 @@ struct Beads {
 
 }  // namespace
 
-TEST_CASE("feature_lines: held samples keep backbone and order, corners stay, seams are gone") {
+TEST_CASE("feature_lines: held samples keep backbone and order, corners and the surface stay") {
   for (const Case& c : cases) {
     CAPTURE(std::string(c.name));
     Charted run(c);
-    std::vector<std::uint8_t> seams(run.surface.line.begin(), run.surface.line.end());
-    REQUIRE(std::any_of(seams.begin(), seams.end(), is_seam));
+    const std::vector<std::uint8_t> bits(run.surface.line.begin(), run.surface.line.end());
     const Samples& samples = run.s.samples;
     std::vector<LineAnchor> before(samples.anchor.begin(), samples.anchor.end());
     run.sample_anew();
-    const std::vector<std::uint8_t> after(run.surface.line.begin(), run.surface.line.end());
-    CHECK(std::none_of(after.begin(), after.end(), is_seam));
-    for (std::size_t h = 0; h < after.size(); ++h) CHECK(after[h] == (seams[h] & line_feature));
+    CHECK(std::equal(bits.begin(), bits.end(), run.surface.line.begin()));
 
-    const Backbones lines = run.features();
+    const Backbones& lines = run.lines;
     Samples old = samples;
     old.anchor = {before.data(), before.size()};
     const Beads then(run.surface, lines, old), now(run.surface, lines, samples);
@@ -140,7 +131,7 @@ TEST_CASE("feature_lines: held samples keep backbone and order, corners stay, se
 TEST_CASE("feature_lines: spacing on straight lines is even within 1 %") {
   Charted run(cases[0]);
   run.sample_anew();
-  const Backbones lines = run.features();
+  const Backbones& lines = run.lines;
   const Beads beads(run.surface, lines, run.s.samples);
   CHECK(lines.count() == 12);
   for (std::size_t b = 0; b < lines.count(); ++b) {
@@ -174,9 +165,39 @@ TEST_CASE("feature_lines: free samples are not touched, and the same comes out t
   CHECK(std::equal(free_only.begin(), free_only.end(), first.begin()));
 }
 
-TEST_CASE("feature_lines: a shape without features only loses its seams") {
+TEST_CASE("feature_lines: what was pulled onto a kink is held there, the rest may slide, nodes stay") {
+  const Case kinked[] = {cases[0], {"bracket", 200, 30}, {"plate3", 200, 0}};
+  for (const Case& c : kinked) {
+    for (const bool keep_shape : {true, false}) {
+      CAPTURE(std::string(c.name));
+      CAPTURE(keep_shape);
+      Charted run(c, 300);
+      run.sample_anew(keep_shape);
+      const Samples& samples = run.s.samples;
+      const Beads beads(run.surface, run.lines, samples);
+      std::size_t pulled = 0;
+      for (const auto& corner : beads.corners) CHECK(samples.held[SampleId{corner.first}] == hold_place);
+      for (std::size_t b = 0; b < run.lines.count(); ++b) {
+        for (const std::uint32_t s : beads.order(b)) {
+          const double along = samples.anchor[s].along;
+          if (samples.held[s] == hold_place) CHECK((along == 0 || along == 1));
+          pulled += samples.held[s] == hold_place;
+          CHECK((samples.held[s] == hold_place || samples.held[s] == hold_line));
+        }
+      }
+      if (!keep_shape) CHECK(pulled == 0);
+      if (keep_shape) CHECK((pulled > 0) == (c.name != std::string("cube")));  // whose edges are straight
+    }
+  }
+}
+
+TEST_CASE("feature_lines: a shape without features stays as it is") {
   Charted run({"sphere", 1280, 0});
+  const std::vector<SurfacePlace> before(run.s.samples.place.begin(), run.s.samples.place.end());
   run.sample_anew();
-  for (std::uint8_t bits : run.surface.line) CHECK(bits == line_none);
-  for (std::uint8_t h : run.s.samples.held) CHECK(h == 0);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const SurfacePlace& place = run.s.samples.place[i];
+    CHECK((place.face == before[i].face && place.weight1 == before[i].weight1 && place.weight2 == before[i].weight2));
+  }
+  for (std::uint8_t h : run.s.samples.held) CHECK(h == hold_none);
 }

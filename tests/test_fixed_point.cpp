@@ -8,7 +8,7 @@ using namespace isolod;
 using support::Random;
 
 namespace {
-constexpr double unit = 0x1p-32;
+constexpr double least_step = 0x1p-32;
 }
 
 TEST_CASE("fixed point: multiples of the unit survive the way there and back") {
@@ -24,13 +24,13 @@ TEST_CASE("fixed point: multiples of the unit survive the way there and back") {
 }
 
 TEST_CASE("fixed point: the nearest value is taken, however close to a half the rest is") {
-  CHECK(to_fixed(0.4999999 * unit) == 0);
-  CHECK(to_fixed(0.5000001 * unit) == 1);
-  CHECK(to_fixed(-0.4999999 * unit) == 0);
-  CHECK(to_fixed(-0.5000001 * unit) == -1);
+  CHECK(to_fixed(0.4999999 * least_step) == 0);
+  CHECK(to_fixed(0.5000001 * least_step) == 1);
+  CHECK(to_fixed(-0.4999999 * least_step) == 0);
+  CHECK(to_fixed(-0.5000001 * least_step) == -1);
   const double below_half = 0.49999999999999994;  // the greatest double below one half
-  CHECK(to_fixed(below_half * unit) == 0);
-  CHECK(to_fixed(-below_half * unit) == 0);
+  CHECK(to_fixed(below_half * least_step) == 0);
+  CHECK(to_fixed(-below_half * least_step) == 0);
   CHECK(to_fixed(1073741823.75) == 1073741824 * one_sample - one_sample / 4);
 }
 

@@ -2,34 +2,30 @@
 #include "relax/split_edges.h"
 
 #include <algorithm>
-
 #include <string>
 
 #include "relax/relaxation.h"
-#include "support/frames.h"
+#include "result/feature_lines.h"
 #include "support/plane_shapes.h"
+#include "support/stitched.h"
 
 using namespace isolod;
 
 namespace {
 
-/// A relaxed coarse mesh with its frames.
-struct Coarse : support::Framed {
-  Coarse(const std::string& name, std::size_t triangles, std::uint32_t count)
-      : Framed(support::made(name, triangles), support::with_vertices(count)), mesh(s.stitch.mesh()) {
+/// A relaxed coarse mesh.
+struct Coarse : support::Stitched {
+  Coarse(const std::string& name, std::size_t triangles, std::uint32_t count, double feature_angle = 0)
+      : Stitched(support::made(name, triangles), support::with_vertices(count, feature_angle)), mesh(s.stitch.mesh()) {
     const ScratchScope scope(block.arena);
+    REQUIRE(sample_features_anew(s.surface, lines, {}, s.samples, block.arena).is_ok());
     Relaxation relaxation;
-    REQUIRE(relaxation.begin(s.surface, frames, mesh, s.samples, {}, block.arena).is_ok());
+    REQUIRE(relaxation.begin(s.surface, features(), mesh, s.samples, {}, block.arena).is_ok());
     for (int i = 0; i < 8; ++i) relaxation.iterate();
   }
   void split(std::uint32_t spare) {
     const std::size_t back = block.arena.mark().back;
-    REQUIRE(split_edges(s.surface, frames, spare, mesh, s.samples, block.arena).is_ok());
-    CHECK(block.arena.mark().back == back);
-  }
-  void insert(std::uint32_t count) {
-    const std::size_t back = block.arena.mark().back;
-    REQUIRE(insert_where_sparse(s.surface, frames, count, mesh, s.samples, block.arena).is_ok());
+    REQUIRE(split_edges(s.surface, features(), spare, mesh, s.samples, block.arena).is_ok());
     CHECK(block.arena.mark().back == back);
   }
   Vec3 at(std::uint32_t sample) const { return position_of(s.surface, s.samples, SampleId{sample}); }
@@ -134,33 +130,44 @@ TEST_CASE("split_edges: no face of a sphere is turned over, two levels down") {
   }
 }
 
-TEST_CASE("insert_where_sparse: as many as were asked for, valid, each in the heaviest face") {
-  for (const std::uint32_t count : {0U, 1U, 2U, 3U, 40U}) {
-    CAPTURE(count);
-    Coarse coarse("sphere", 2000, 300);
-    coarse.split(count);
-    const std::size_t v = coarse.s.samples.count(), f = coarse.mesh.mesh.face_count();
-    double heaviest = 0;
-    FaceId chosen{0};
-    for (FaceId face : Ids<FaceId>(f)) {
-      const auto at = [&](std::uint32_t k) { return coarse.at(coarse.mesh.mesh.origin[halfedge(face, k)].value); };
-      const double area = length(cross(at(1) - at(0), at(2) - at(0)));
-      if (area > heaviest) heaviest = area, chosen = face;
-    }
-    std::vector<std::uint32_t> corners;
-    for (std::uint32_t k = 0; k < 3; ++k) corners.push_back(coarse.mesh.mesh.origin[halfedge(chosen, k)].value);
-    std::sort(corners.begin(), corners.end());
-    coarse.insert(count);
-    CHECK(coarse.s.samples.count() == v + count);
-    CHECK(coarse.mesh.mesh.vertex_count() == v + count);
-    CHECK(coarse.mesh.mesh.face_count() == f + 2 * count);
+TEST_CASE("split_edges: each edge of a line gets its middle on that line, half of the density to either side") {
+  for (const char* name : {"cube", "bracket", "plate"}) {
+    CAPTURE(std::string(name));
+    Coarse coarse(name, 1500, 500, 30);
+    support::Block& block = coarse.block;
+    const auto order = [&] { return support::order_on_lines(coarse.s.surface, coarse.lines, coarse.s.samples, block.arena); };
+    const auto density_to = [&](std::uint32_t sample) {
+      const LineAnchor& anchor = coarse.s.samples.anchor[sample];
+      const std::uint32_t e = coarse.lines.place[anchor.halfedge];
+      double sum = 0;
+      for (std::uint32_t i = 0; i < e; ++i) sum += edge_density(coarse.s.surface, coarse.lines.edge[i]);
+      const double along = coarse.lines.edge[e] == anchor.halfedge ? anchor.along : 1 - anchor.along;
+      return sum + along * edge_density(coarse.s.surface, coarse.lines.edge[e]);
+    };
+    const std::uint32_t old = static_cast<std::uint32_t>(coarse.s.samples.count());
+    const auto before = order();
+    const long euler = support::euler(coarse.mesh), loops = support::boundary_loops(coarse.mesh.mesh);
+    std::size_t fixed = 0, fixed_after = 0;
+    for (std::uint8_t f : coarse.mesh.fixed) fixed += f != 0;
+    coarse.split(0);
     CHECK(support::broken(coarse.mesh) == "");
-    CHECK(support::euler(coarse.mesh) == 2);
-    for (std::uint32_t i = static_cast<std::uint32_t>(v); i < v + count; ++i) CHECK(coarse.is_placed(i));
-    if (count != 1) continue;
-    const std::uint32_t added = static_cast<std::uint32_t>(v);
-    CHECK(old_neighbours(coarse.mesh.mesh, VertexId{added}, added) == corners);
-    const Vec3 middle = (1.0 / 3) * (coarse.at(corners[0]) + coarse.at(corners[1]) + coarse.at(corners[2]));
-    CHECK(distance(coarse.at(added), middle) < 0.2 * distance(coarse.at(corners[0]), coarse.at(corners[1])));
+    CHECK(support::euler(coarse.mesh) == euler);
+    CHECK(support::boundary_loops(coarse.mesh.mesh) == loops);
+    for (std::uint8_t f : coarse.mesh.fixed) fixed_after += f != 0;
+    CHECK(fixed_after == 2 * fixed);
+    const auto after = order();
+    for (std::size_t b = 0; b < before.size(); ++b) {
+      const bool closed = is_closed(coarse.s.surface, coarse.lines, b);
+      REQUIRE(after[b].size() == 2 * before[b].size() + (closed ? 0 : 1));
+      for (std::size_t k = 0; k < after[b].size(); ++k) {
+        const bool is_new = closed ? k % 2 == 1 : k % 2 == 0;
+        CHECK((after[b][k] >= old) == is_new);
+        if (!is_new) CHECK(after[b][k] == before[b][k / 2]);
+        if (is_new) CHECK(coarse.s.samples.held[after[b][k]] == hold_line);
+        if (!is_new || k == 0 || k + 1 >= after[b].size()) continue;
+        const double from = density_to(after[b][k - 1]), to = density_to(after[b][k + 1]);
+        if (from < to) CHECK(density_to(after[b][k]) == doctest::Approx(0.5 * (from + to)));
+      }
+    }
   }
 }

@@ -4,16 +4,16 @@
 #include <string>
 
 #include "mesh/validate.h"
-#include "support/frames.h"
+#include "support/stitched.h"
 #include "support/plane_shapes.h"
 
 using namespace isolod;
 
 namespace {
 
-struct Thinned : support::Framed {
+struct Thinned : support::Stitched {
   Thinned(const std::string& name, std::size_t triangles, std::uint32_t count, double feature_angle = 0)
-      : Framed(support::made(name, triangles), support::with_vertices(count, feature_angle)) {}
+      : Stitched(support::made(name, triangles), support::with_vertices(count, feature_angle)) {}
 
   std::size_t thin(std::uint32_t target, bool keep_lines = false, bool lines_alike = false) {
     const std::size_t back = block.arena.mark().back;
@@ -35,7 +35,7 @@ struct Thinned : support::Framed {
   }
   std::uint32_t held() const {
     std::uint32_t count = 0;
-    for (std::uint8_t h : s.samples.held) count += h;
+    for (std::uint8_t h : s.samples.held) count += h != hold_none;
     return count;
   }
   std::uint32_t at_corners() const {

@@ -7,10 +7,16 @@ namespace isolod {
 inline namespace v1 {
 
 namespace {
+
 constexpr double loop_gain = 1.0;
 constexpr double most_correction = 1.0;
 constexpr std::uint32_t rings = 6;
 constexpr double whole_turn = 6.283185307179586;
+
+bool is_counted(const Samples& samples, SampleId s, const StarCell& cell) {
+  return !samples.held[s] && cell.mass > 0 && cell.angle > 0;
+}
+
 }  // namespace
 
 Status MassLoop::begin(const Triangulation& mesh, const Samples& samples, Arena& arena) {
@@ -22,12 +28,18 @@ Status MassLoop::begin(const Triangulation& mesh, const Samples& samples, Arena&
   return arena.scratch(samples.count(), averaged_);
 }
 
+/// The mean mass is the unit of all: the logarithm of a bare mass would depend on the scale in its last bits.
+void MassLoop::add_mass(SampleId s, const StarCell& cell) {
+  if (!is_counted(samples_, s, cell)) return;
+  mass_ += cell.mass;
+  count_ += 1;
+}
+
 /// Up to the mean, which is taken off at the end. 0 for a held sample.
 double MassLoop::error_of(SampleId s, const StarCell& cell) {
-  if (samples_.held[s] || !(cell.mass > 0) || !(cell.angle > 0)) return 0;
-  const double error = logarithm(cell.mass * whole_turn / cell.angle);
+  if (!is_counted(samples_, s, cell)) return 0;
+  const double error = logarithm(cell.mass / (mass_ / count_) * whole_turn / cell.angle);
   sum_ += error;
-  count_ += 1;
   return error;
 }
 
@@ -47,6 +59,9 @@ double MassLoop::average_around(SampleId s) const {
 void MassLoop::step(Span<const StarCell> cell) {
   const std::size_t count = samples_.count();
   switch (phase_) {
+    case Phase::masses:
+      if (sweep_.over<SampleId>(count, [&](SampleId s) { add_mass(s, cell[s]); })) phase_ = Phase::errors;
+      return;
     case Phase::errors:
       if (!sweep_.over<SampleId>(count, [&](SampleId s) { error_[s] = error_of(s, cell[s]); })) return;
       phase_ = Phase::average;
@@ -67,7 +82,7 @@ void MassLoop::step(Span<const StarCell> cell) {
         samples_.correction[s] = greater(-most_correction, smaller(most_correction, c));
       };
       if (!sweep_.over<SampleId>(count, correct)) return;
-      sum_ = count_ = 0;
+      mass_ = sum_ = count_ = 0;
       round_ = 0;
       phase_ = Phase::done;
       return;

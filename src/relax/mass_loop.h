@@ -16,13 +16,14 @@ class MassLoop {
  public:
   /// 16 bytes a sample of scratch stay with the caller's scope.
   Status begin(const Triangulation& mesh, const Samples& samples, Arena& arena);
-  void start() { phase_ = Phase::errors; }
+  void start() { phase_ = Phase::masses; }
   /// A range of samples.
   void step(Span<const StarCell> cell);
   bool done() const { return phase_ == Phase::done; }
 
  private:
-  enum class Phase : std::uint8_t { errors, average, correct, done };
+  enum class Phase : std::uint8_t { masses, errors, average, correct, done };
+  void add_mass(SampleId s, const StarCell& cell);
   double error_of(SampleId s, const StarCell& cell);
   double average_around(SampleId s) const;
 
@@ -31,7 +32,7 @@ class MassLoop {
   Phase phase_ = Phase::done;
   Sweep sweep_;
   std::uint32_t round_ = 0;
-  double sum_ = 0, count_ = 0;
+  double mass_ = 0, sum_ = 0, count_ = 0;
   Span<double> error_, averaged_;
 };
 

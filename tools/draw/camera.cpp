@@ -10,7 +10,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-Vec3 unit(Vec3 v) { return 1 / std::max(length(v), 1e-300) * v; }
 
 double along(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "relax/face_score.h"
-#include "support/stitched.h"
 #include "support/plane_shapes.h"
+#include "support/stitched.h"
 
 using namespace isolod;
 

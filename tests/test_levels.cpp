@@ -44,7 +44,9 @@ std::string fault_of(const DensityIntegrals& integrals, std::uint32_t v, std::ui
   }
   double rate = solve_rates(integrals, v, Calibration::corrected).line;
   for (std::uint32_t level = 0; level < plan.splits; ++level) rate *= 0.5;
-  const auto share_on_lines = [&](double r) { return (r * integrals.lines + integrals.corner_count) / count_at(integrals, r); };
+  const auto share_on_lines = [&](double r) {
+    return (r * integrals.lines + integrals.corner_count) / count_at(integrals, r);
+  };
   if (plan.splits > 0 && share_on_lines(rate) > 0.334) return "lines take too much of the first level";
   const double next_rate = 0.5 * rate;
   const bool may_split = count_at(integrals, next_rate) > least + 1.0 && share_on_lines(next_rate) < 0.333;
@@ -119,7 +121,7 @@ struct Case {
   double feature_angle;
   std::uint32_t vertex_count;
 };
-const Case with_lines[] = {{"cube", 1200, 30, 2400},    {"bracket", 2000, 30, 9000}, {"plate", 1500, 30, 9000},
+const Case with_lines[] = {{"cube", 1200, 30, 2400},  {"bracket", 2000, 30, 9000},      {"plate", 1500, 30, 9000},
                            {"plate3", 1500, 0, 3000}, {"cylinder_open", 1000, 0, 2501}, {"cube", 1200, 30, 7777}};
 
 }  // namespace

@@ -302,7 +302,7 @@ TEST_CASE("remesher: cancelling at a progress call of any stage leaves the arena
     progress = {};
     progress.stop_at = stop_at;
     Kept kept;
-    const Status status = remesh(view_of(shape), with_vertices(600), kept.sink(), nullptr, block.arena, hooks);
+    const Status status = remesh(view_of(shape), with_vertices(1500), kept.sink(), nullptr, block.arena, hooks);
     CHECK(block.arena.mark().front == mark.front);
     CHECK(block.arena.mark().back == mark.back);
     CHECK(progress.rising);

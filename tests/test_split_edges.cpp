@@ -135,7 +135,9 @@ TEST_CASE("split_edges: each edge of a line gets its middle on that line, half o
     CAPTURE(std::string(name));
     Coarse coarse(name, 1500, 500, 30);
     support::Block& block = coarse.block;
-    const auto order = [&] { return support::order_on_lines(coarse.s.surface, coarse.lines, coarse.s.samples, block.arena); };
+    const auto order = [&] {
+      return support::order_on_lines(coarse.s.surface, coarse.lines, coarse.s.samples, block.arena);
+    };
     const auto density_to = [&](std::uint32_t sample) {
       const LineAnchor& anchor = coarse.s.samples.anchor[sample];
       const std::uint32_t e = coarse.lines.place[anchor.halfedge];

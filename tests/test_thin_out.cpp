@@ -4,8 +4,8 @@
 #include <string>
 
 #include "mesh/validate.h"
-#include "support/stitched.h"
 #include "support/plane_shapes.h"
+#include "support/stitched.h"
 
 using namespace isolod;
 

@@ -337,11 +337,16 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
 
 bool is_thinned(const State& s) { return s.plan.splits == 0 && s.plan.first_count > s.options.vertex_count; }
 
-/// Samples that the first mesh has over its budget are taken out again.
+/// Samples that the first mesh has over its budget are taken out again. Where none are, faces that a chart turned over
+/// are righted: relaxation keeps each face on its side, and a fold would grow.
 Status step_thin(State& s, bool& done, std::uint64_t& units) {
   units = 100;
   done = !is_thinned(s);
-  if (done) return {};
+  if (done) {
+    units = face_units(s);
+    if (s.options.remove_seams) polish_coarse(s.surface, 0, s.stitch.mesh(), s.samples);
+    return {};
+  }
   if (!s.stage_begun) {
     s.before_thin = s.arena->mark();
     ThinOptions options;

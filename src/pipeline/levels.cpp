@@ -74,6 +74,14 @@ double Levels::line_rate(std::uint32_t level) const {
   return rate;
 }
 
+RelaxOptions Levels::relax_options() const {
+  RelaxOptions options;
+  options.weight = options_.weight;
+  options.line_rate = line_rate(level_);
+  options.guards_faces = plan_.first_count > plan_.count[0];
+  return options;
+}
+
 /// Seams are lines no more.
 Status Levels::find_features(Surface& surface, Arena& arena) {
   for (std::uint8_t& bits : surface.line) bits = bits & line_feature;
@@ -171,7 +179,7 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
     case Phase::begin_relax:
       phase_ = Phase::relax;
       iteration_ = 0;
-      return relaxation_.begin(surface, features(), mesh, samples, {options_.weight, 1.8, line_rate(level_)}, arena);
+      return relaxation_.begin(surface, features(), mesh, samples, relax_options(), arena);
     case Phase::relax:
       relax(samples.count(), arena);
       return {};

@@ -22,8 +22,8 @@ struct LevelPlan {
   std::uint32_t first_count = 0;  ///< of the first mesh: as many as level 0, or more, which are then thinned out
 };
 
-/// As many splits, up to `most_splits`, as leave the first level at least `least_first` samples, a third of them at most
-/// on lines. Each level wishes for edges twice as long as the next.
+/// As many splits, up to `most_splits`, as leave the first level at least `least_first` samples, a third of them at
+/// most on lines. Each level wishes for edges twice as long as the next.
 LevelPlan plan_levels(const DensityIntegrals& integrals, std::uint32_t vertex_count, std::uint32_t most_splits,
                       std::uint32_t least_first);
 
@@ -62,6 +62,7 @@ class Levels {
   bool is_finest() const { return level_ == plan_.splits; }
   std::uint32_t iterations(std::uint32_t level) const;
   double line_rate(std::uint32_t level) const;
+  RelaxOptions relax_options() const;
   const Backbones* features() const { return features_.start.count > 1 ? &features_ : nullptr; }
 
   LevelPlan plan_;

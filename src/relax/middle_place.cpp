@@ -24,7 +24,8 @@ class Nearest {
   /// From the faces around an anchor: the right one is on the side of the point.
   void descend_from(SampleId s) {
     const LineAnchor& anchor = samples_.anchor[s];
-    const VertexId v = anchor.along <= 0.5 ? surface_.mesh.origin[anchor.halfedge] : surface_.mesh.target(anchor.halfedge);
+    const VertexId v =
+        anchor.along <= 0.5 ? surface_.mesh.origin[anchor.halfedge] : surface_.mesh.target(anchor.halfedge);
     visit_outgoing(surface_.mesh, v, [&](HalfedgeId h) { consider(descend(surface_, face(h), point_)); });
   }
 

@@ -3,6 +3,7 @@
 #include "base/elementary.h"
 #include "base/status.h"
 #include "relax/face_mass.h"
+#include "relax/face_score.h"
 #include "relax/slide.h"
 #include "sample/surface_walk.h"
 
@@ -19,6 +20,8 @@ constexpr double far_reach = 0.8;        // wished edge lengths; a regular cell 
 constexpr double pull = 0.3;             // of the way to what is far
 constexpr double longest_step = 0.25;    // wished edge lengths
 constexpr double most_of_interval = 0.3;  // that a sample slides at once
+
+bool gets_unfair(double before, double after) { return after < fair_score && after < before; }
 
 }  // namespace
 
@@ -117,12 +120,28 @@ bool Relaxation::keeps_faces(VertexId v, Vec3 there) const {
   return is_bent_[v] ? keeps_sides(v, there) : keeps_upright(v, there);
 }
 
+/// Takes a sample to a new place, and back where faces are guarded and one got worse.
+template <class Take>
+bool Relaxation::take_if_fair(SampleId s, Take take) {
+  if (!options_.guards_faces) {
+    take();
+    return true;
+  }
+  const SurfacePlace place = samples_.place[s];
+  const LineAnchor anchor = samples_.anchor[s];
+  const double before = star_score(*surface_, mesh_->mesh, samples_, vertex(s));
+  take();
+  if (!gets_unfair(before, star_score(*surface_, mesh_->mesh, samples_, vertex(s)))) return true;
+  samples_.place[s] = place;
+  samples_.anchor[s] = anchor;
+  return false;
+}
+
 bool Relaxation::move_by(SampleId s, Vec3 way) {
   SurfacePlace place;
   if (!walk_straight(*surface_, samples_.place[s], way, place)) return false;
   const Vec3 there = position_of(*surface_, place);
-  if (!keeps_faces(vertex(s), there)) return false;
-  samples_.place[s] = place;
+  if (!keeps_faces(vertex(s), there) || !take_if_fair(s, [&] { samples_.place[s] = place; })) return false;
   site_[s].position = there;
   return true;
 }
@@ -147,11 +166,9 @@ bool Relaxation::slide_by(SampleId s, Vec3 way) {
   const double size = length(along), room = room_on_line(vertex(s));
   if (!(size > 0)) return false;
   const double wished = dot(way, along) / size;
-  const LineAnchor there =
-      slide_along(*surface_, *features_, anchor, greater(-room, smaller(room, wished)));
+  const LineAnchor there = slide_along(*surface_, *features_, anchor, greater(-room, smaller(room, wished)));
   const Vec3 point = position_of(*surface_, there);
-  if (!keeps_faces(vertex(s), point)) return false;
-  samples_.anchor[s] = there;
+  if (!keeps_faces(vertex(s), point) || !take_if_fair(s, [&] { samples_.anchor[s] = there; })) return false;
   site_[s].position = point;
   return true;
 }
@@ -210,7 +227,10 @@ bool Relaxation::wants_flip(HalfedgeId h) const {
   const bool is_convex = dot(new_left, both) > 0 && dot(new_right, both) > 0;
   const bool was_upright = dot(left, both) > 0 && dot(right, both) > 0;
   if (!is_convex && (was_upright || !(dot(new_left, new_right) > dot(left, right)))) return false;
-  return can_flip(*mesh_, h);
+  if (!can_flip(*mesh_, h)) return false;
+  if (!options_.guards_faces) return true;
+  const FlipScores scores = flip_scores(*surface_, mesh, samples_, h);
+  return !gets_unfair(scores.before, scores.after);
 }
 
 void Relaxation::flip_edge(HalfedgeId h) {

@@ -3,8 +3,8 @@
 // The paper's section 7 names what is needed: charts that overlap, so that no edge and no vertex remembers where the
 // surface was cut; Surazhsky, Alliez and Gotsman, "Isotropic remeshing of surfaces: a local parameterization approach"
 // (2003), made them of the star of one vertex. So it is here. Larger charts were tried, flattened by least squares with
-// the stars of some sixty samples inside: they cost more than all the rest, fold where a coarse mesh is curled, and came
-// out worse (bunny at 10,000: Q mean 0.925 against 0.939). A star needs no map: its faces are flat already.
+// the stars of some sixty samples inside: they cost more than all the rest, fold where a coarse mesh is curled, and
+// came out worse (bunny at 10,000: Q mean 0.925 against 0.939). A star needs no map: its faces are flat already.
 //
 // All samples move at once, from their old places: each by the over-relaxed step to the centroid of its bounded Voronoi
 // cell, the part of it along the surface, walked straight on over the original faces. A sample on a feature slides
@@ -27,6 +27,8 @@ struct RelaxOptions {
   LloydWeight weight = LloydWeight::equal;
   double step = 1.8;  ///< times the way to the centroid
   double line_rate = 0;  ///< R_f of this level: 1 / (R_f sqrt(d_s)) is the wished edge length
+  /// For meshes too coarse for their shape: no move and no flip makes a face worse that is not fair (`face_score`).
+  bool guards_faces = false;
 };
 
 /// What one iteration came to.
@@ -67,6 +69,8 @@ class Relaxation {
   void move(SampleId s);
   bool move_by(SampleId s, Vec3 way);
   bool slide_by(SampleId s, Vec3 way);
+  template <class Take>
+  bool take_if_fair(SampleId s, Take take);
   bool keeps_faces(VertexId v, Vec3 there) const;
   bool keeps_upright(VertexId v, Vec3 there) const;
   bool keeps_sides(VertexId v, Vec3 there) const;

@@ -60,7 +60,9 @@ Status SplitEdges::place_on_lines(const Backbones& features, Arena& arena) {
     const double whole = track.whole_mass();
     const std::size_t intervals = closed ? on.count : on.count + 1;
     for (std::size_t i = 0; i < intervals; ++i) {
-      double from = i > 0 ? mass_at(track, on[i - 1].place) : closed ? mass_at(track, on[on.count - 1].place) - whole : 0;
+      double from = i > 0    ? mass_at(track, on[i - 1].place)
+                    : closed ? mass_at(track, on[on.count - 1].place) - whole
+                             : 0;
       const double to = i < on.count ? mass_at(track, on[i].place) : whole;
       double middle = 0.5 * (from + to);
       if (middle < 0) middle += whole;

@@ -17,8 +17,8 @@ inline namespace v1 {
 class SplitEdges {
  public:
   /// `features` are the backbones of the surface without seams, or null where it has none. Results: about 110 bytes a
-  /// new sample; the old ones stay behind. Scratch: 4 bytes a halfedge, and some 60 a held sample for a while; all given
-  /// back at the end.
+  /// new sample; the old ones stay behind. Scratch: 4 bytes a halfedge, and some 60 a held sample for a while; all
+  /// given back at the end.
   Status begin(const Surface& surface, const Backbones* features, std::uint32_t spare, Triangulation& mesh,
                Samples& samples, Arena& arena);
   /// The middles of a range of edges, or the faces of one.

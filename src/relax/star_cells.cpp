@@ -74,7 +74,8 @@ class FaceParts {
   void add_beside_line(std::uint32_t k) {
     const std::uint32_t j = (k + 1) % 3, l = (k + 2) % 3;
     const double square_kj = dot(side_[k], side_[k]), square_lk = dot(side_[l], side_[l]);
-    const FacePoint on_j = between(j, l, square_kj / (2 * cosine_[j])), on_l = between(l, j, square_lk / (2 * cosine_[l]));
+    const FacePoint on_j = between(j, l, square_kj / (2 * cosine_[j])),
+                    on_l = between(l, j, square_lk / (2 * cosine_[l]));
     const FacePoint middle_j = between(k, j, 0.5), middle_l = between(k, l, 0.5);
     add_part(j, on_j, middle_j);
     add_part(k, middle_j, on_j);

@@ -17,8 +17,8 @@ class Tiles {
   /// surface of scratch stay with the caller's scope, 4 more are given back.
   Status begin(const Surface& surface, const Samples& samples, Arena& arena);
 
-  /// Looks for a nearer sample for face f among the neighbours of the one that it belongs to, and adds it to the cell of
-  /// that sample where `is_bent` says so.
+  /// Looks for a nearer sample for face f among the neighbours of the one that it belongs to, and adds it to the cell
+  /// of that sample where `is_bent` says so.
   void settle(const Triangulation& mesh, const Samples& samples, Span<const Site> site, FaceId f,
               Span<const std::uint8_t> is_bent, Span<StarCell> cell);
 

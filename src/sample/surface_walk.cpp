@@ -81,7 +81,8 @@ bool walk_straight(const Surface& surface, const SurfacePlace& start, Vec3 way, 
   place = start;
   Ground at(surface, start.face);
   if (!(at.squared > 0)) return false;
-  Walk walk{start.face, {greater(0, 1 - start.weight1 - start.weight2), start.weight1, start.weight2}, lay_down(at, way)};
+  Walk walk{
+      start.face, {greater(0, 1 - start.weight1 - start.weight2), start.weight1, start.weight2}, lay_down(at, way)};
   for (std::uint32_t step = 0; step < most_faces; ++step) {
     const std::uint32_t exit = walk.cross_face(at);
     place = {walk.face, walk.w[1], walk.w[2]};

@@ -10,7 +10,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-
 double along(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 /// How much of the area lies flat at the bottom, if that axis is up.

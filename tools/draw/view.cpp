@@ -11,7 +11,6 @@ constexpr double fineness = 2;  // pixels of the image for one of the picture
 
 std::size_t image_size(double size) { return static_cast<std::size_t>(std::ceil(size * fineness)); }
 
-
 }  // namespace
 
 View::View(const Model& model, const Camera& camera, double width, double height)

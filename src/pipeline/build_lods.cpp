@@ -1,0 +1,71 @@
+// The call that makes several levels of detail at once.
+#include "mesh/validate.h"
+#include "pipeline/state.h"
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+
+/// The first of the greatest.
+std::uint32_t finest_of(Span<const LodRequest> requests) {
+  std::uint32_t finest = 0;
+  for (std::uint32_t i = 1; i < requests.count; ++i) {
+    if (requests[i].vertex_count > requests[finest].vertex_count) finest = i;
+  }
+  return finest;
+}
+
+Status check_coarser(Span<const Lod> coarser, Arena& arena) {
+  for (const Lod& lod : coarser) {
+    Finding finding;
+    ISOLOD_TRY(find_defect(lod.triangles, lod.positions, lod.vertex_count, finding, arena));
+    if (finding.defect != Defect::none) return fail(Status::invalid_result, Element::vertex, finding.element);
+  }
+  return {};
+}
+
+Status deliver_all(Span<const LodRequest> requests, std::uint32_t finest, const ResultMesh& mesh,
+                   Span<const Lod> coarser) {
+  for (std::uint32_t i = 0; i < requests.count; ++i) {
+    const std::uint32_t k = i < finest ? i : i - 1;
+    const ResultMesh one = i == finest ? mesh : ResultMesh{coarser[k].positions, coarser[k].triangles};
+    ISOLOD_TRY(deliver(one, requests[i].sink));
+  }
+  return {};
+}
+
+}  // namespace
+
+Status build_lods(const MeshView& view, const Options& options, Span<const LodRequest> requests, Report* report,
+                  Arena& arena, const Hooks& hooks) {
+  if (requests.empty() || !options.remove_seams) return fail(Status::invalid_option, Element::option);
+  for (const LodRequest& request : requests) {
+    if (request.vertex_count == 0) return fail(Status::invalid_option, Element::option);
+  }
+  const std::uint32_t finest = finest_of(requests);
+  const ArenaMark mark = arena.mark();
+  Options finest_options = options;
+  finest_options.vertex_count = requests[finest].vertex_count;
+  Remesher remesher;
+  Span<Lod> coarser;
+  Status status = arena.result(requests.count - 1, coarser);
+  for (std::uint32_t i = 0; status.is_ok() && i < requests.count; ++i) {
+    if (i != finest) coarser[i < finest ? i : i - 1] = {requests[i].vertex_count, false, {}, {}};
+  }
+  if (status.is_ok()) status = remesher.begin(view, finest_options, hooks, arena);
+  if (remesher.state() != nullptr) {
+    remesher.state_->coarser = coarser;
+    status = remesher.advance(UINT64_MAX - 1);
+    if (report != nullptr) *report = remesher.report();
+  }
+  if (status.is_ok() && options.validate) status = check_coarser(coarser, arena);
+  if (status.is_ok()) status = deliver_all(requests, finest, remesher.result(), coarser);
+  arena.rewind_results(mark);
+  arena.rewind_scratch(mark);
+  if (report != nullptr) report->status = status;
+  return status;
+}
+
+}  // namespace v1
+}  // namespace isolod

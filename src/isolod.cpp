@@ -93,9 +93,12 @@
 #include "relax/thin_out.cpp"
 #include "relax/tiles.cpp"
 
+#include "pipeline/build_lods.cpp"
 #include "pipeline/charting.cpp"
+#include "pipeline/finish.cpp"
 #include "pipeline/first_mesh.cpp"
 #include "pipeline/levels.cpp"
+#include "pipeline/lods.cpp"
 #include "pipeline/make_atlas.cpp"
 #include "pipeline/remesher.cpp"
 #include "pipeline/single_chart.cpp"

@@ -95,6 +95,9 @@ struct ResultMesh {
   Span<const std::uint32_t> triangles;  ///< 3 a triangle
 };
 
+struct LodRequest;
+struct Lod;
+
 /// A remeshing that lives in an arena and can be spread over many calls. The result does not depend on how the work
 /// was sliced. `view`'s data must stay as they are until the run is done.
 class Remesher {
@@ -116,6 +119,8 @@ class Remesher {
   const State* state() const { return state_; }
 
  private:
+  friend Status build_lods(const MeshView& view, const Options& options, Span<const LodRequest> requests,
+                           Report* report, Arena& arena, const Hooks& hooks);
   State* state_ = nullptr;
 };
 
@@ -123,6 +128,21 @@ class Remesher {
 /// not been called, and the arena is back where it was. `report` may be null.
 Status remesh(const MeshView& view, const Options& options, const MeshSink& sink, Report* report, Arena& arena,
               const Hooks& hooks = {});
+
+/// A level of detail that is wished, and who gets it.
+struct LodRequest {
+  std::uint32_t vertex_count = 0;
+  MeshSink sink;
+};
+
+/// Makes several levels of detail of exactly so many vertices each, from one analysis and one set of maps: the finest
+/// as `remesh` would, the others from the levels that it goes through, coarse to fine. `options.vertex_count` does not
+/// count; `options.remove_seams` must be true (else invalid_option). The sinks are called in the order of the requests
+/// once all meshes are known to be good; equal counts give equal meshes only if they are below the greatest. Where one
+/// count is too small, budget_too_small names a number that works for it; nothing is given out then. `report` is that
+/// of the finest. Memory: the results, and some 400 bytes a vertex of the coarser ones besides what the finest needs.
+Status build_lods(const MeshView& view, const Options& options, Span<const LodRequest> requests, Report* report,
+                  Arena& arena, const Hooks& hooks = {});
 
 /// Bytes of arena that are enough for any mesh of these counts.
 std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options);

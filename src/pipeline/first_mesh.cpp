@@ -3,9 +3,7 @@
 #include "pipeline/stage_hashes.h"
 #include "pipeline/state.h"
 #include "relax/coarse_polish.h"
-#include "relax/mend_flat.h"
 #include "result/lift.h"
-#include "result/output.h"
 #include "sample/lloyd_line.h"
 
 namespace isolod {
@@ -379,11 +377,15 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
     options.weight = s.options.weight;
     if (is_thinned(s)) options.fine_iterations = options.coarse_iterations;
     s.levels.begin(s.plan, options);
+    s.lods.begin(s.coarser, s.integrate.integrals(), s.options);
   }
-  ISOLOD_TRY(s.levels.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
   units = elements_a_piece;
-  s.stage_share = s.levels.share_done();
+  if (!s.lods.done()) return s.lods.step(s.surface, *s.arena);
   done = s.levels.done();
+  if (done) return {};
+  ISOLOD_TRY(s.levels.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
+  s.stage_share = s.levels.share_done();
+  if (s.levels.is_level_end() || s.levels.done()) return s.lods.branch(s.stitch.mesh(), s.samples, *s.arena);
   if (!s.levels.is_unresolved()) return {};
   restart_finer(s);
   done = true;
@@ -392,26 +394,13 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
 
 Status step_lift(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
-  switch (s.piece++) {
-    case 0:
-      if (is_thinned(s)) polish_coarse(s.surface, polished_score, s.stitch.mesh(), s.samples);
-      mend_flat_faces(s.surface, s.stitch.mesh(), s.samples);
-      return {};
-    case 1:
-      ISOLOD_TRY(s.arena->result(3 * s.samples.count(), s.positions));
-      lift_samples(s.surface, s.samples, s.positions);
-      if (!s.options.fit) return {};
-      return s.fit.begin(s.surface, s.stitch.mesh(), s.samples, s.positions, *s.arena);
-    case 2:
-      if (s.fit.done()) return {};
-      units = elements_a_piece;
-      s.fit.step(*s.arena);
-      --s.piece;
-      return {};
-    default:
-      done = true;
-      return list_triangles(s.stitch.mesh().mesh, s.triangles, *s.arena);
+  if (!s.stage_begun) {
+    if (is_thinned(s)) polish_coarse(s.surface, polished_score, s.stitch.mesh(), s.samples);
+    s.finish.begin(s.options.fit);
   }
+  ISOLOD_TRY(s.finish.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
+  done = s.finish.done();
+  return {};
 }
 
 Status step_validate(State& s, bool& done, std::uint64_t& units) {
@@ -421,7 +410,7 @@ Status step_validate(State& s, bool& done, std::uint64_t& units) {
   if (!s.options.validate) return {};
 #endif
   Finding finding;
-  ISOLOD_TRY(find_defect(s.triangles, s.positions, s.options.vertex_count, finding, *s.arena));
+  ISOLOD_TRY(find_defect(s.finish.triangles, s.finish.positions, s.options.vertex_count, finding, *s.arena));
   if (finding.defect == Defect::none) return {};
   return fail(Status::invalid_result, Element::vertex, finding.element);
 }

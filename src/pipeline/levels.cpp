@@ -11,8 +11,8 @@ inline namespace v1 {
 namespace {
 
 constexpr std::uint32_t trial_iterations = 15;
-constexpr double most_bent = 0.002;       // of the samples of a first level that is to be split
-constexpr std::uint32_t cover_period = 3;
+constexpr double most_bent = 0.002;  // of the samples of a first level that is to be split
+constexpr std::uint32_t cover_period = 5;
 constexpr std::uint32_t loop_period = 10;  // iterations from one closing of the loop to the next
 constexpr std::uint32_t quiet_end = 5;     // iterations of a level behind the last one
 

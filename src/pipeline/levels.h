@@ -30,10 +30,10 @@ LevelPlan plan_levels(const DensityIntegrals& integrals, std::uint32_t vertex_co
 struct LevelOptions {
   double line_rate = 0;  ///< R_f of the finest level
   LloydWeight weight = LloydWeight::equal;
-  std::uint32_t coarse_iterations = 120;
+  std::uint32_t coarse_iterations = 160;
   std::uint32_t fine_iterations = 30;
   std::uint32_t only_iterations = 80;  ///< where there is one level alone
-  bool has_other_lines = false;        ///< the first level comes from a mesh of another count: its lines are matched too
+  bool has_other_lines = false;  ///< the first level comes from a mesh of another count: its lines are matched too
 };
 
 /// A stage: begin, step until done.
@@ -46,14 +46,26 @@ class Levels {
   /// Whether a level other than the last has been relaxed and is about to be split; the next step goes on.
   bool is_level_end() const { return phase_ == Phase::level_end; }
   std::uint32_t level_count() const { return plan_.count[level_]; }  ///< of the level that is worked on
-  /// Whether the first level was given up because too many of its stars are folded up, and there is a finer one to start
-  /// from.
+  /// Whether the first level was given up because too many of its stars are folded up, and there is a finer one to
+  /// start from.
   bool is_unresolved() const { return phase_ == Phase::unresolved; }
   /// Roughly, 0 to 1: a level costs four times what the one before did.
   double share_done() const;
 
  private:
-  enum class Phase : std::uint8_t { features, lines, thin, insert, begin_relax, relax, level_end, begin_split, split, done, unresolved };
+  enum class Phase : std::uint8_t {
+    features,
+    lines,
+    thin,
+    insert,
+    begin_relax,
+    relax,
+    level_end,
+    begin_split,
+    split,
+    done,
+    unresolved
+  };
   Status find_features(Surface& surface, Arena& arena);
   Status match_lines(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   Status begin_thin(const Surface& surface, bool keep_lines, Triangulation& mesh, Samples& samples, Arena& arena);

@@ -103,11 +103,11 @@ Status Remesher::advance(std::uint64_t work) {
 
 bool Remesher::done() const { return state_ != nullptr && state_->stage == stage_entry_count; }
 
-ResultMesh Remesher::result() const { return done() ? ResultMesh{state_->positions, state_->triangles} : ResultMesh{}; }
+ResultMesh Remesher::result() const {
+  return done() ? ResultMesh{state_->finish.positions, state_->finish.triangles} : ResultMesh{};
+}
 
 const Report& Remesher::report() const { return state_->report; }
-
-namespace {
 
 Status deliver(const ResultMesh& mesh, const MeshSink& sink) {
   const std::size_t vertices = mesh.positions.count / 3, triangles = mesh.triangles.count / 3;
@@ -120,8 +120,6 @@ Status deliver(const ResultMesh& mesh, const MeshSink& sink) {
   }
   return {};
 }
-
-}  // namespace
 
 namespace {
 

@@ -4,10 +4,8 @@
 #include "isolod/remesh.h"
 #include "mesh/repair.h"
 #include "pipeline/charting.h"
-#include "pipeline/levels.h"
+#include "pipeline/lods.h"
 #include "plane/lloyd.h"
-#include "relax/thin_out.h"
-#include "result/fit.h"
 #include "result/stitch.h"
 #include "sample/calibrate.h"
 #include "sample/diffuse.h"
@@ -65,12 +63,15 @@ struct Remesher::State {
   ArenaMark before_thin;
   bool is_thinnest = false;  ///< the budget is too small, by no more than the number that the status names
   Levels levels;
-  Span<double> positions;
-  Fit fit;
-  Span<std::uint32_t> triangles;
+  Span<Lod> coarser;  ///< levels of detail that are wished besides the result
+  Lods lods;
+  Finish finish;
 
   SampledSurface sampled() const { return {&surface, &atlas, &backbones, &lines, places, chart_start, numbers}; }
 };
+
+/// Gives a mesh to a sink; sink_failed where a callback says so.
+Status deliver(const ResultMesh& mesh, const MeshSink& sink);
 
 /// A stage of the run: its name and its work, piece by piece. `units` is what the piece cost.
 struct StageEntry {

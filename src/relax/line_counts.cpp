@@ -35,6 +35,9 @@ class LineMatch {
     return begin_track(features_, track_, arena);
   }
 
+  /// Before any were added or removed.
+  std::uint32_t inner_count(std::size_t b) const { return static_cast<std::uint32_t>(riders_.on(b).count); }
+
   /// Every so many-th one, so that spreading moves none far.
   void remove(std::size_t b, std::uint32_t count) {
     const Span<const Rider> on = riders_.on(b);
@@ -112,10 +115,8 @@ Status match_line_counts(const Surface& surface, const Backbones& features, cons
   const ScratchScope scope(arena);
   LineMatch match(surface, features, mesh, samples);
   ISOLOD_TRY(match.begin(arena));
-  Riders riders;
-  ISOLOD_TRY(collect_riders(surface, features, samples, riders, arena));
   for (std::size_t b = 0; b < features.count(); ++b) {
-    const std::uint32_t inner = static_cast<std::uint32_t>(riders.on(b).count), wish = wished.inner_count(b);
+    const std::uint32_t inner = match.inner_count(b), wish = wished.inner_count(b);
     if (inner > wish) match.remove(b, inner - wish);
     if (inner < wish) match.add(b, wish - inner);
   }

@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::uint32_t most_halvings = 3;
 constexpr std::uint32_t flip_rounds = 2;
-constexpr double least_cosine = 0.1;     // between a face and its star, for it to count as not turned over
-constexpr double least_upright = 0.5;    // length of the sum of a star's area vectors over the sum of their lengths
-constexpr double far_reach = 0.8;        // wished edge lengths; a regular cell reaches 0.58
-constexpr double pull = 0.3;             // of the way to what is far
-constexpr double longest_step = 0.25;    // wished edge lengths
+constexpr double least_cosine = 0.1;      // between a face and its star, for it to count as not turned over
+constexpr double least_upright = 0.5;     // length of the sum of a star's area vectors over the sum of their lengths
+constexpr double far_reach = 0.8;         // wished edge lengths; a regular cell reaches 0.58
+constexpr double pull = 0.3;              // of the way to what is far
+constexpr double longest_step = 0.25;     // wished edge lengths
 constexpr double most_of_interval = 0.3;  // that a sample slides at once
 
 bool gets_unfair(double before, double after) { return after < fair_score && after < before; }
@@ -46,7 +46,8 @@ Status Relaxation::begin(const Surface& surface, const Backbones* features, Tria
 void Relaxation::look(SampleId s) {
   const double d = density_at(*surface_, samples_, s);
   const double base = options_.weight == LloydWeight::equal ? d * d : d;
-  site_[s] = {position_of(*surface_, samples_, s), d, base * exponential(samples_.correction[s])};
+  const Vec3 normal = area_vector(*surface_, face_of(samples_, s));
+  site_[s] = {position_of(*surface_, samples_, s), d, base * exponential(samples_.correction[s]), normal};
   cell_[s] = {{0, 0, 0}, 0, 0, 0};
 }
 
@@ -259,14 +260,14 @@ bool Relaxation::step() {
       if (!sweep_.over<SampleId>(samples_.count(), [&](SampleId s) { look_for_bend(s); })) return false;
       phase_ = Phase::tiles;
       return false;
-    case Phase::tiles:
-      if ((report_.bent > 0 || covers_) && !sweep_.over<FaceId>(surface_->mesh.face_count(), [&](FaceId f) { settle(f); })) {
-        return false;
-      }
+    case Phase::tiles: {
+      const auto settle_next = [&](SampleId i) { settle(i.value); };
+      if (covers_ && !sweep_.over<SampleId>(tiles_.sweep_count(), settle_next)) return false;
       if (closes_loop_) loop_.start();
       phase_ = closes_loop_ ? Phase::loop : Phase::moves;
       closes_loop_ = false;
       return false;
+    }
     case Phase::loop:
       loop_.step(cell_);
       if (loop_.done()) phase_ = Phase::moves;

@@ -25,7 +25,7 @@ inline namespace v1 {
 
 struct RelaxOptions {
   LloydWeight weight = LloydWeight::equal;
-  double step = 1.8;  ///< times the way to the centroid
+  double step = 1.8;     ///< times the way to the centroid
   double line_rate = 0;  ///< R_f of this level: 1 / (R_f sqrt(d_s)) is the wished edge length
   /// For meshes too coarse for their shape: no move and no flip makes a face worse that is not fair (`face_score`).
   bool guards_faces = false;
@@ -48,7 +48,8 @@ class Relaxation {
 
   /// The next iteration feeds the cells' masses back into the corrections (design: closed loop).
   void close_loop_next() { closes_loop_ = true; }
-  /// In the next iteration samples whose cells reach too far, as at a tip that the mesh has slipped off, go there.
+  /// In the next iteration the surface is given to the samples (`Tiles`): those whose stars are folded up move, and
+  /// those whose cells reach too far, as at a tip that the mesh has slipped off, go there.
   void cover_next() { covers_ = true; }
 
   /// A range of samples, faces or edges; true at the end of the iteration.
@@ -61,7 +62,7 @@ class Relaxation {
   enum class Phase : std::uint8_t { look, cells, bends, tiles, loop, moves, flips };
   void look(SampleId s);
   void look_for_bend(SampleId s);
-  void settle(FaceId f) { tiles_.settle(*mesh_, samples_, site_, f, is_bent_, cell_); }
+  void settle(std::uint32_t i) { tiles_.settle(*mesh_, site_, tiles_.face(i), is_bent_, cell_); }
   double reach_of(SampleId s) const;
   Vec3 pull_of(SampleId s) const;
   Vec3 step_of(SampleId s) const;

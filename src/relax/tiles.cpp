@@ -5,17 +5,11 @@
 namespace isolod {
 inline namespace v1 {
 
-namespace {
-
-FaceId face_of(const Samples& samples, SampleId s) {
-  return samples.held[s] ? face(samples.anchor[s].halfedge) : samples.place[s].face;
-}
-
-}  // namespace
-
 Status Tiles::begin(const Surface& surface, const Samples& samples, Arena& arena) {
   surface_ = &surface;
-  const std::size_t count = surface.mesh.face_count();
+  constexpr std::size_t most_tiles = 24;  // a sample
+  const std::size_t count = surface.mesh.face_count(), stride = count / (most_tiles * (samples.count() + 1));
+  stride_ = stride > 1 ? static_cast<std::uint32_t>(stride) : 1;
   ISOLOD_TRY(arena.scratch(count, owner_));
   ISOLOD_TRY(arena.scratch(samples.count(), reach_));
   const ScratchScope scope(arena);
@@ -30,16 +24,16 @@ Status Tiles::begin(const Surface& surface, const Samples& samples, Arena& arena
   for (std::size_t head = 0; head < tail; ++head) {
     for (std::uint32_t k = 0; k < 3; ++k) {
       const HalfedgeId t = surface.mesh.twin[halfedge(queue[head], k)];
-      if (t.is_none() || (surface.line[t] & line_feature) != 0 || !owner_[face(t)].is_none()) continue;
-      owner_[face(t)] = owner_[queue[head]];
-      queue[tail++] = face(t);
+      if (t.is_none() || (surface.line[t] & line_feature) != 0 || !owner_[isolod::face(t)].is_none()) continue;
+      owner_[isolod::face(t)] = owner_[queue[head]];
+      queue[tail++] = isolod::face(t);
     }
   }
   return {};
 }
 
-void Tiles::settle(const Triangulation& mesh, const Samples& samples, Span<const Site> site, FaceId f,
-                   Span<const std::uint8_t> is_bent, Span<StarCell> cell) {
+void Tiles::settle(const Triangulation& mesh, Span<const Site> site, FaceId f, Span<const std::uint8_t> is_bent,
+                   Span<StarCell> cell) {
   constexpr std::uint32_t most_steps = 2;
   SampleId best = owner_[f];
   if (best.is_none()) return;
@@ -53,7 +47,7 @@ void Tiles::settle(const Triangulation& mesh, const Samples& samples, Span<const
   const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
   const auto far = [&](SampleId s) {
     const Vec3 way = middle - site[s].position;
-    const bool other_side = dot(normal, area_vector(*surface_, face_of(samples, s))) < 0;
+    const bool other_side = dot(normal, site[s].normal) < 0;
     return dot(way, way) * (other_side ? 4 : 1);
   };
   double least = far(best);

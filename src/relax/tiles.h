@@ -11,6 +11,11 @@
 namespace isolod {
 inline namespace v1 {
 
+/// The face of the surface that a sample lies in, or beside.
+inline FaceId face_of(const Samples& samples, SampleId s) {
+  return samples.held[s] ? face(samples.anchor[s].halfedge) : samples.place[s].face;
+}
+
 class Tiles {
  public:
   /// Gives every face to a sample, from the samples' own faces on outwards, over no feature. 4 bytes a face of the
@@ -19,9 +24,14 @@ class Tiles {
 
   /// Looks for a nearer sample for face f among the neighbours of the one that it belongs to, and adds it to the cell
   /// of that sample where `is_bent` says so.
-  void settle(const Triangulation& mesh, const Samples& samples, Span<const Site> site, FaceId f,
-              Span<const std::uint8_t> is_bent, Span<StarCell> cell);
+  void settle(const Triangulation& mesh, Span<const Site> site, FaceId f, Span<const std::uint8_t> is_bent,
+              Span<StarCell> cell);
 
+  /// How many faces a sweep settles: some two dozen a sample at most, `face(i)` the i-th of them.
+  std::size_t sweep_count() const { return (owner_.count + stride_ - 1) / stride_; }
+  FaceId face(std::uint32_t i) const { return {i * stride_}; }
+
+  SampleId owner(FaceId f) const { return owner_[f]; }
   /// Forgets how far cells reach.
   void clear_reach() {
     for (Reach& r : reach_) r = {none<FaceId>(), 0};
@@ -35,6 +45,7 @@ class Tiles {
 
  private:
   const Surface* surface_ = nullptr;
+  std::uint32_t stride_ = 1;
   Span<Reach> reach_;     // per sample
   Span<SampleId> owner_;  // none where no sample can be reached
 };

@@ -35,7 +35,7 @@ class Artist {
 
   /// Also of a run that failed in its last checks.
   Status draw_last(const Remesher::State& state) {
-    const Model result = model_of(state.positions, state.triangles);
+    const Model result = model_of(state.finish.positions, state.finish.triangles);
     if (result.face.empty()) return {};
     ISOLOD_TRY(keep("5_result.svg", draw_result(path("5_result.svg"), frame_, result)));
     return keep("6_valence.svg", draw_valence(path("6_valence.svg"), frame_, result));

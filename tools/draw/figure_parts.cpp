@@ -59,7 +59,7 @@ Camera direction_that_shows(const Model& model, const Camera& direction, Vec3 p)
 Status remeshed(const FigureTask& task, const isolod::Options& options, Model& result) {
   StagedRun run(task.view, options, task.settings.block_bytes);
   ISOLOD_TRY(run.finish());
-  result = model_of(run.state()->positions, run.state()->triangles);
+  result = model_of(run.state()->finish.positions, run.state()->finish.triangles);
   return {};
 }
 

@@ -61,8 +61,8 @@ FirstSeams remesh(const MeshView& view, const Options& options, tool::TriangleMe
   FirstSeams found;
   while (advance_to_atlas(run)) found = seams_of(*run.state());
   const Remesher::State& state = *run.state();
-  result.positions.assign(state.positions.data, state.positions.data + state.positions.count);
-  result.triangles.assign(state.triangles.data, state.triangles.data + state.triangles.count);
+  result.positions.assign(state.finish.positions.data, state.finish.positions.data + state.finish.positions.count);
+  result.triangles.assign(state.finish.triangles.data, state.finish.triangles.data + state.finish.triangles.count);
   return found;
 }
 

@@ -20,7 +20,7 @@ TEST_CASE("face_mass: six times the integral of a linear density, whether its co
     samples.place[s] = {face(h), h.value % 3 == 1 ? 1.0 : 0.0, h.value % 3 == 2 ? 1.0 : 0.0};
     samples.anchor[s] = {h, 0};
   }
-  for (const std::uint8_t held : {0, 1}) {
+  for (const std::uint8_t held : {hold_none, hold_line}) {
     for (std::uint8_t& h : samples.held) h = held;
     double sum = 0;
     for (FaceId f : Ids<FaceId>(2)) sum += face_mass(piece.surface, mesh, samples, f);

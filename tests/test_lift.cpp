@@ -13,7 +13,7 @@ namespace {
 /// Three samples in each of three faces and on one line, by hand.
 struct Hand {
   explicit Hand(std::size_t count) : place(count), anchor(count), held(count, 0) {
-    samples = {{place.data(), count}, {anchor.data(), count}, {held.data(), count}};
+    samples = {{place.data(), count}, {anchor.data(), count}, {held.data(), count}, {}};
   }
   std::vector<SurfacePlace> place;
   std::vector<LineAnchor> anchor;

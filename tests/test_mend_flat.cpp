@@ -22,7 +22,7 @@ class Hand {
       places_[i] = {FaceId{0}, weights[i].x, weights[i].y};
       anchors_[i] = {HalfedgeId{0}, weights[i].x};
     }
-    samples = {{places_.data(), weights.size()}, {anchors_.data(), weights.size()}, {held_.data(), weights.size()}};
+    samples = {{places_.data(), weights.size()}, {anchors_.data(), weights.size()}, {held_.data(), weights.size()}, {}};
     REQUIRE(block_.arena.result(3 * faces.size(), mesh.mesh.origin).is_ok());
     REQUIRE(block_.arena.result(3 * faces.size(), mesh.fixed).is_ok());
     for (std::size_t i = 0; i < 3 * faces.size(); ++i) {

@@ -43,7 +43,7 @@ TEST_CASE("samples: a held sample is where its anchor is, a free one where its p
     SurfacePlace place[2] = {{FaceId{random.below(s.mesh.face_count())}, 0.2, 0.3}, {FaceId{0}, 0.1, 0.1}};
     LineAnchor anchor[2] = {{HalfedgeId{0}, 0.5}, {HalfedgeId{random.below(s.mesh.halfedge_count())}, random.unit()}};
     std::uint8_t held[2] = {0, 1};
-    const Samples samples{{place, 2}, {anchor, 2}, {held, 2}};
+    const Samples samples{{place, 2}, {anchor, 2}, {held, 2}, {}};
     CHECK(samples.count() == 2);
     CHECK(same(position_of(s, samples, SampleId{0}), position_of(s, place[0])));
     const HalfedgeId h = anchor[1].halfedge;
@@ -63,10 +63,10 @@ TEST_CASE("samples: at the ends of a halfedge a held sample is the vertex, bit b
     for (const double along : {0.0, 1.0}) {
       LineAnchor anchor{h, along};
       const Vec3 vertex = s.position(along == 0 ? s.mesh.origin[h] : s.mesh.target(h));
-      CHECK(same(position_of(s, {{&place, 1}, {&anchor, 1}, {&held, 1}}, SampleId{0}), vertex));
+      CHECK(same(position_of(s, {{&place, 1}, {&anchor, 1}, {&held, 1}, {}}, SampleId{0}), vertex));
       if (s.mesh.is_boundary(h)) continue;
       anchor = {s.mesh.twin[h], 1 - along};
-      CHECK(same(position_of(s, {{&place, 1}, {&anchor, 1}, {&held, 1}}, SampleId{0}), vertex));
+      CHECK(same(position_of(s, {{&place, 1}, {&anchor, 1}, {&held, 1}, {}}, SampleId{0}), vertex));
     }
   }
 }

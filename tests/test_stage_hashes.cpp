@@ -39,8 +39,8 @@ struct Hand {
     set(s.places, places);
     set(s.samples.place, sample_places);
     set(s.stitch.mesh().mesh.origin, stitched);
-    set(s.positions, positions);
-    set(s.triangles, corners);
+    set(s.finish.positions, positions);
+    set(s.finish.triangles, corners);
     s.first_rates = {0.75, 1.25};
     s.plan.splits = 1;
     s.plan.first_count = 100;
@@ -148,8 +148,8 @@ const std::vector<Change> changes = {
     {"result", [](Hand& h) { h.positions[2] = -3; }},
     {"result", [](Hand& h) { h.corners[0] = 5; }},
     {"result", [](Hand& h) { std::swap(h.corners[1], h.corners[2]); }},
-    {"result", [](Hand& h) { --h.s.positions.count; }},
-    {"result", [](Hand& h) { --h.s.triangles.count; }},
+    {"result", [](Hand& h) { --h.s.finish.positions.count; }},
+    {"result", [](Hand& h) { --h.s.finish.triangles.count; }},
 };
 
 }  // namespace

@@ -43,7 +43,7 @@ Triangulation mesh_of(const Piece& piece) { return {piece.surface.mesh, piece.su
 template <class Density, class Weight>
 std::vector<Site> sites_of(const std::vector<Vec3>& points, Density density, Weight weight) {
   std::vector<Site> sites;
-  for (const Vec3 p : points) sites.push_back({p, density(p), weight(p)});
+  for (const Vec3 p : points) sites.push_back({p, density(p), weight(p), {0, 0, 0}});
   return sites;
 }
 

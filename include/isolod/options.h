@@ -77,8 +77,8 @@ struct Options {
   Centroids centroids = Centroids::fast;
   std::uint32_t lloyd_iterations = 40;  ///< of the two-dimensional relaxation
 
-  /// Relax once more in charts that overlap, so that no seam is left, coarse to fine on surfaces without lines. False:
-  /// all samples are diffused at once, and the first mesh is the result, as the paper has it.
+  /// Relax once more over the whole mesh, coarse to fine, so that no seam is left; samples on features slide along
+  /// them. False: all samples are diffused at once, and the first mesh is the result, as the paper has it.
   bool remove_seams = true;
 
   /// A boundary loop whose length comes to fewer than three samples closes, corners or not (section 3.4), unless it is

@@ -1,5 +1,4 @@
-// The regions of a partition in a row, each to be taken or to be split in two: what the atlas and the overlapping
-// charts have in common.
+// The regions of a partition in a row, each to be taken or to be split in two.
 #pragma once
 
 #include "atlas/partition.h"

@@ -77,7 +77,6 @@
 #include "result/output.cpp"
 #include "result/stitch.cpp"
 
-#include "relax/coarse_polish.cpp"
 #include "relax/drop_dead.cpp"
 #include "relax/face_score.cpp"
 #include "relax/insert.cpp"
@@ -86,12 +85,15 @@
 #include "relax/mend_flat.cpp"
 #include "relax/middle_place.cpp"
 #include "relax/relaxation.cpp"
+#include "relax/resettle.cpp"
 #include "relax/slide.cpp"
 #include "relax/space_flip.cpp"
 #include "relax/split_edges.cpp"
 #include "relax/star_cells.cpp"
+#include "relax/star_moves.cpp"
 #include "relax/thin_out.cpp"
 #include "relax/tiles.cpp"
+#include "relax/worst_faces.cpp"
 
 #include "pipeline/build_lods.cpp"
 #include "pipeline/charting.cpp"

@@ -109,12 +109,11 @@ void split_face(Triangulation& t, FaceId f, VertexId v) {
 
 namespace {
 
-/// Cuts the face of h, a b c, at v on a b: it becomes a v c, and the new face v b c is returned as its side v b.
-HalfedgeId split_side(Triangulation& t, HalfedgeId h, VertexId v) {
+/// Cuts the face of h, a b c, at v on a b: it becomes a v c, and f becomes v b c; its side v b is returned.
+HalfedgeId split_side(Triangulation& t, HalfedgeId h, VertexId v, FaceId f) {
   Halfedges& mesh = t.mesh;
   const HalfedgeId h_next = next(h);
   const VertexId b = mesh.origin[h_next], c = mesh.apex(h);
-  const FaceId f = add_face(t);
   const HalfedgeId rest = halfedge(f, 0);
   set_face(t, f, v, b, c);
   hand_over(t, h_next, halfedge(f, 1));
@@ -129,16 +128,22 @@ HalfedgeId split_side(Triangulation& t, HalfedgeId h, VertexId v) {
 }  // namespace
 
 void split_edge(Triangulation& t, HalfedgeId h, VertexId v) {
+  FaceId added[2] = {add_face(t), none<FaceId>()};
+  if (!t.mesh.is_boundary(h)) added[1] = add_face(t);
+  split_edge(t, h, v, added);
+}
+
+void split_edge(Triangulation& t, HalfedgeId h, VertexId v, const FaceId (&spare)[2]) {
   Halfedges& mesh = t.mesh;
   const HalfedgeId g = mesh.twin[h];
-  const HalfedgeId h_rest = split_side(t, h, v);
+  const HalfedgeId h_rest = split_side(t, h, v, spare[0]);
   note_vertex(t, v);
   mesh.outgoing[v] = h_rest;
   if (g.is_none()) {
     mesh.twin[h_rest] = none<HalfedgeId>();
     return;
   }
-  const HalfedgeId g_rest = split_side(t, g, v);  // g runs from b to v now, g_rest from v to a
+  const HalfedgeId g_rest = split_side(t, g, v, spare[1]);  // g runs from b to v now, g_rest from v to a
   join(t, h, g_rest);
   join(t, h_rest, g);
 }

@@ -37,6 +37,9 @@ void split_face(Triangulation& t, FaceId f, VertexId v);
 /// Puts the new vertex v on the edge of h: h ends at v afterwards, and the rest of the edge is in an added face.
 void split_edge(Triangulation& t, HalfedgeId h, VertexId v);
 
+/// The same with dead faces in place of added ones; on the boundary only the first is needed.
+void split_edge(Triangulation& t, HalfedgeId h, VertexId v, const FaceId (&spare)[2]);
+
 /// Takes out a vertex of exactly three faces inside the mesh; one face is left of them.
 void remove_inner_vertex(Triangulation& t, VertexId v);
 

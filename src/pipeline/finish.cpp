@@ -5,13 +5,25 @@
 namespace isolod {
 inline namespace v1 {
 
-void Finish::begin(bool fits) {
-  fits_ = fits;
-  phase_ = Phase::mend;
+void Finish::begin(const Backbones* features, const FinishOptions& options) {
+  features_ = features;
+  options_ = options;
+  phase_ = options.improves ? Phase::begin : Phase::mend;
 }
 
 Status Finish::step(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
   switch (phase_) {
+    case Phase::begin:
+      phase_ = Phase::improve;
+      mark_ = arena.mark();
+      return worst_.begin(surface, features_, {}, mesh, samples, arena);
+    case Phase::improve:
+      worst_.step();
+      if (!worst_.done()) return {};
+      ISOLOD_TRY(worst_.finish(arena));
+      arena.rewind_scratch(mark_);
+      phase_ = Phase::mend;
+      return {};
     case Phase::mend:
       mend_flat_faces(surface, mesh, samples);
       phase_ = Phase::lift;
@@ -19,8 +31,8 @@ Status Finish::step(const Surface& surface, Triangulation& mesh, Samples& sample
     case Phase::lift:
       ISOLOD_TRY(arena.result(3 * samples.count(), positions));
       lift_samples(surface, samples, positions);
-      phase_ = fits_ ? Phase::fit : Phase::list;
-      return fits_ ? fit_.begin(surface, mesh, samples, positions, arena) : Status();
+      phase_ = options_.fits ? Phase::fit : Phase::list;
+      return options_.fits ? fit_.begin(surface, mesh, samples, positions, arena) : Status();
     case Phase::fit:
       fit_.step(arena);
       if (fit_.done()) phase_ = Phase::list;

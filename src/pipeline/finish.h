@@ -1,7 +1,8 @@
-// From a relaxed mesh to a result: places lifted to points, fitted if that is asked for, triangles listed.
+// From a relaxed mesh to a result: the worst faces improved, places lifted to points, fitted if that is asked for, triangles listed.
 #pragma once
 
 #include "relax/mend_flat.h"
+#include "relax/worst_faces.h"
 #include "result/fit.h"
 #include "result/lift.h"
 #include "result/output.h"
@@ -9,11 +10,17 @@
 namespace isolod {
 inline namespace v1 {
 
+struct FinishOptions {
+  bool improves = true;  ///< the worst faces
+  bool fits = false;     ///< vertices leave the surface where that lessens the distance
+};
+
 /// A stage: begin, step until done.
 class Finish {
  public:
-  void begin(bool fits);
-  /// A linear pass, or a piece of the fitting. Results: 24 bytes a sample and 12 a face.
+  /// `features` are the backbones of the surface without seams, or null where it has none.
+  void begin(const Backbones* features, const FinishOptions& options);
+  /// A range of samples, a bad face, or a linear pass. Results: 24 bytes a sample and 12 a face.
   Status step(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   bool done() const { return phase_ == Phase::done; }
 
@@ -21,9 +28,12 @@ class Finish {
   Span<std::uint32_t> triangles;  ///< 3 a face
 
  private:
-  enum class Phase : std::uint8_t { mend, lift, fit, list, done };
+  enum class Phase : std::uint8_t { begin, improve, mend, lift, fit, list, done };
+  const Backbones* features_ = nullptr;
+  FinishOptions options_;
   Phase phase_ = Phase::done;
-  bool fits_ = false;
+  WorstFaces worst_;
+  ArenaMark mark_;
   Fit fit_;
 };
 

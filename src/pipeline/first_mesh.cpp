@@ -2,7 +2,7 @@
 #include "mesh/validate.h"
 #include "pipeline/stage_hashes.h"
 #include "pipeline/state.h"
-#include "relax/coarse_polish.h"
+#include "relax/worst_faces.h"
 #include "result/lift.h"
 #include "sample/lloyd_line.h"
 
@@ -14,7 +14,6 @@ namespace {
 using State = Remesher::State;
 
 constexpr std::uint32_t least_first_count = 2000;
-constexpr double polished_score = 0.35;
 constexpr double refine_limit = 1.25;  // wished edge lengths
 
 std::uint64_t face_units(const State& s) { return s.surface.mesh.face_count(); }
@@ -333,17 +332,24 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   }
 }
 
+/// Faces worse than `wanted_score` are bettered by moves and flips alone, before the relaxation: it keeps each face on
+/// its side, and a fold would grow.
+Status right_faces(State& s, double wanted_score) {
+  WorstFacesOptions options;
+  options.wanted_score = wanted_score;
+  options.resettles = false;
+  return improve_worst_faces(s.surface, nullptr, options, s.stitch.mesh(), s.samples, *s.arena);
+}
+
 bool is_thinned(const State& s) { return s.plan.splits == 0 && s.plan.first_count > s.options.vertex_count; }
 
-/// Samples that the first mesh has over its budget are taken out again. Where none are, faces that a chart turned over
-/// are righted: relaxation keeps each face on its side, and a fold would grow.
+/// Samples that the first mesh has over its budget are taken out again.
 Status step_thin(State& s, bool& done, std::uint64_t& units) {
   units = 100;
   done = !is_thinned(s);
   if (done) {
     units = face_units(s);
-    if (s.options.remove_seams) polish_coarse(s.surface, 0, s.stitch.mesh(), s.samples);
-    return {};
+    return s.options.remove_seams ? right_faces(s, 0) : Status();
   }
   if (!s.stage_begun) {
     s.before_thin = s.arena->mark();
@@ -362,8 +368,7 @@ Status step_thin(State& s, bool& done, std::uint64_t& units) {
   s.arena->rewind_scratch(s.before_thin);
   s.is_thinnest = s.samples.count() > s.options.vertex_count;
   if (s.is_thinnest) return fail(Status::budget_too_small, Element::count, s.samples.count());
-  polish_coarse(s.surface, polished_score, s.stitch.mesh(), s.samples);
-  return {};
+  return right_faces(s, WorstFacesOptions().wanted_score);
 }
 
 Status step_levels(State& s, bool& done, std::uint64_t& units) {
@@ -395,8 +400,8 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
 Status step_lift(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
   if (!s.stage_begun) {
-    if (is_thinned(s)) polish_coarse(s.surface, polished_score, s.stitch.mesh(), s.samples);
-    s.finish.begin(s.options.fit);
+    const Backbones* features = s.options.remove_seams ? s.levels.features() : nullptr;
+    s.finish.begin(features, {s.options.remove_seams, s.options.fit});
   }
   ISOLOD_TRY(s.finish.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
   done = s.finish.done();
@@ -425,7 +430,7 @@ const StageEntry stage_entries[] = {
     {"lines", step_lines, hash_line_samples, 0.01},  {"diffuse", step_diffuse, hash_places, 0.02},
     {"charts", step_charts, hash_places, 0.4},       {"stitch", step_stitch, hash_samples, 0.02},
     {"thin", step_thin, hash_samples, 0.01},         {"levels", step_levels, hash_samples, 0.5},
-    {"lift", step_lift, hash_result, 0.01},          {"validate", step_validate, hash_result, 0.01},
+    {"lift", step_lift, hash_result, 0.05},          {"validate", step_validate, hash_result, 0.01},
 };
 const std::uint32_t stage_entry_count = sizeof stage_entries / sizeof stage_entries[0];
 

@@ -51,6 +51,8 @@ class Levels {
   bool is_unresolved() const { return phase_ == Phase::unresolved; }
   /// Roughly, 0 to 1: a level costs four times what the one before did.
   double share_done() const;
+  /// The backbones of the features, or null where there are none; known once the first piece is done.
+  const Backbones* features() const { return features_.start.count > 1 ? &features_ : nullptr; }
 
  private:
   enum class Phase : std::uint8_t {
@@ -75,7 +77,6 @@ class Levels {
   std::uint32_t iterations(std::uint32_t level) const;
   double line_rate(std::uint32_t level) const;
   RelaxOptions relax_options() const;
-  const Backbones* features() const { return features_.start.count > 1 ? &features_ : nullptr; }
 
   LevelPlan plan_;
   LevelOptions options_;

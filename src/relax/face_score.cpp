@@ -11,30 +11,36 @@ bool is_at_corner(const Surface& surface, const LineAnchor& anchor) {
 
 namespace {
 
-/// Of the surface at a sample; on a line the mean of both sides, none at a corner of the lines.
 Vec3 normal_at(const Surface& surface, const Samples& samples, SampleId s) {
+  constexpr double weight_of_lines = 0.001;
   if (!samples.held[s]) return unit(area_vector(surface, samples.place[s].face));
   if (is_at_corner(surface, samples.anchor[s])) return {0, 0, 0};
   const HalfedgeId h = samples.anchor[s].halfedge, g = surface.mesh.twin[h];
   const Vec3 normal = unit(area_vector(surface, face(h)));
-  return g.is_none() ? normal : unit(normal + unit(area_vector(surface, face(g))));
+  return weight_of_lines * (g.is_none() ? normal : unit(normal + unit(area_vector(surface, face(g)))));
 }
 
 }  // namespace
 
-double face_score(const Surface& surface, const Samples& samples, const VertexId (&corners)[3]) {
-  Vec3 at[3], normal{0, 0, 0};
-  double squares = 0;
-  for (std::uint32_t k = 0; k < 3; ++k) {
-    at[k] = position_of(surface, samples, SampleId{corners[k].value});
-    normal = normal + normal_at(surface, samples, SampleId{corners[k].value});
-  }
-  for (std::uint32_t k = 0; k < 3; ++k) squares += dot(at[(k + 1) % 3] - at[k], at[(k + 1) % 3] - at[k]);
-  const Vec3 area = cross(at[1] - at[0], at[2] - at[0]);
+Stand stand_of(const Surface& surface, const Samples& samples, SampleId s) {
+  return {position_of(surface, samples, s), normal_at(surface, samples, s)};
+}
+
+double face_score(const Stand& a, const Stand& b, const Stand& c) {
+  const Vec3 ab = b.position - a.position, bc = c.position - b.position, ca = a.position - c.position;
+  const Vec3 area = cross(ab, bc), normal = a.normal + b.normal + c.normal;
   const double turn = length(normal) > 0 ? dot(unit(area), unit(normal)) : 1;  // corners alone tell nothing
-  constexpr double two_root_three = 3.4641016151377544;
   if (turn < 0) return turn;
-  return squares > 0 ? turn * two_root_three * length(area) / squares : 0;
+  const double x = dot(ab, ab), y = dot(bc, bc), z = dot(ca, ca);
+  const double others = smaller(x, smaller(y, z)) == x ? y * z : smaller(y, z) == y ? x * z : x * y;
+  constexpr double two_over_root_three = 1.1547005383792515;
+  const double sine = others > 0 ? two_over_root_three * square_root(dot(area, area) / others) : 0;
+  return smaller(sine, 1.4 * turn);
+}
+
+double face_score(const Surface& surface, const Samples& samples, const VertexId (&corners)[3]) {
+  const auto stand = [&](std::uint32_t k) { return stand_of(surface, samples, SampleId{corners[k].value}); };
+  return face_score(stand(0), stand(1), stand(2));
 }
 
 double star_score(const Surface& surface, const Halfedges& mesh, const Samples& samples, VertexId v) {
@@ -46,12 +52,9 @@ double star_score(const Surface& surface, const Halfedges& mesh, const Samples& 
 }
 
 FlipScores flip_scores(const Surface& surface, const Halfedges& mesh, const Samples& samples, HalfedgeId h) {
-  const HalfedgeId g = mesh.twin[h];
-  const VertexId a = mesh.origin[h], b = mesh.origin[g], c = mesh.apex(h), d = mesh.apex(g);
-  const auto worse = [&](const VertexId(&one)[3], const VertexId(&other)[3]) {
-    return smaller(face_score(surface, samples, one), face_score(surface, samples, other));
-  };
-  return {worse({a, b, c}, {b, a, d}), worse({d, b, c}, {c, a, d})};
+  return flip_scores(mesh, h, [&](VertexId a, VertexId b, VertexId c) {
+    return face_score(surface, samples, {a, b, c});
+  });
 }
 
 }  // namespace v1

@@ -1,6 +1,7 @@
-// How good a face between samples is, seen from space: its shape, and whether it faces the way the surface does.
+// How good a face between samples is, seen from space: its least angle, and whether it faces the way the surface does.
 #pragma once
 
+#include "mesh/triangulation.h"
 #include "sample/samples.h"
 
 namespace isolod {
@@ -10,8 +11,18 @@ inline namespace v1 {
 /// but not those where one turns.
 bool is_at_corner(const Surface& surface, const LineAnchor& anchor);
 
-/// 1 for an equilateral face along the surface at its corners, less for a needle or one across, 0 without area; below
-/// 0, the cosine, for one that is turned against the surface.
+/// A sample as its faces are judged from it: where it is, and the way the surface faces there. On a line that is the
+/// mean of both sides, and short, so that a free corner of the same face outweighs it; none at a corner of the lines.
+struct Stand {
+  Vec3 position;
+  Vec3 normal;
+};
+Stand stand_of(const Surface& surface, const Samples& samples, SampleId s);
+
+/// The sine of the least angle over that of 60 degrees: 1 for an equilateral face along the surface at its corners,
+/// less for a needle, 0 without area. Across the surface at most twice the cosine to its normal; below 0, the cosine,
+/// for a face that is turned against the surface.
+double face_score(const Stand& a, const Stand& b, const Stand& c);
 double face_score(const Surface& surface, const Samples& samples, const VertexId (&corners)[3]);
 
 /// What a face should have at least.
@@ -24,7 +35,36 @@ double star_score(const Surface& surface, const Halfedges& mesh, const Samples& 
 struct FlipScores {
   double before, after;
 };
+
+/// `score(a, b, c)` judges a face by its three vertices.
+template <class Score>
+FlipScores flip_scores(const Halfedges& mesh, HalfedgeId h, Score score) {
+  const HalfedgeId g = mesh.twin[h];
+  const VertexId a = mesh.origin[h], b = mesh.origin[g], c = mesh.apex(h), d = mesh.apex(g);
+  return {smaller(score(a, b, c), score(b, a, d)), smaller(score(d, b, c), score(c, a, d))};
+}
 FlipScores flip_scores(const Surface& surface, const Halfedges& mesh, const Samples& samples, HalfedgeId h);
+
+/// Where a vertex is best merged, and the worst face of its star then; none where it cannot go.
+struct CollapseChoice {
+  HalfedgeId halfedge = none<HalfedgeId>();
+  double score = -2;
+};
+template <class Score>
+CollapseChoice best_collapse(const Triangulation& t, VertexId v, Score score) {
+  CollapseChoice best;
+  visit_outgoing(t.mesh, v, [&](HalfedgeId h) {
+    if (!can_collapse(t, h)) return;
+    const VertexId to = t.mesh.target(h);
+    double worst = 1;
+    visit_outgoing(t.mesh, v, [&](HalfedgeId out) {
+      const VertexId a = t.mesh.target(out), b = t.mesh.apex(out);
+      if (a != to && b != to) worst = smaller(worst, score(to, a, b));
+    });
+    if (worst > best.score) best = {h, worst};
+  });
+  return best;
+}
 
 }  // namespace v1
 }  // namespace isolod

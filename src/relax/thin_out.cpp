@@ -73,28 +73,10 @@ double ThinOut::line_rank(VertexId v) const {
   return samples_->held[SampleId{v.value}] && !options_.lines_alike ? 3 * rank_ : 0;
 }
 
-/// The worst face of the star of h's origin when that is merged into h's target.
-double ThinOut::score_after(HalfedgeId h) const {
-  const Halfedges& mesh = mesh_->mesh;
-  const VertexId to = mesh.target(h);
-  double worst = 1;
-  visit_outgoing(mesh, mesh.origin[h], [&](HalfedgeId out) {
-    const VertexId a = mesh.target(out), b = mesh.apex(out);
-    if (a != to && b != to) worst = smaller(worst, face_score(*surface_, *samples_, {to, a, b}));
+CollapseChoice ThinOut::best_choice(VertexId v) const {
+  return best_collapse(*mesh_, v, [&](VertexId a, VertexId b, VertexId c) {
+    return face_score(*surface_, *samples_, {a, b, c});
   });
-  return worst;
-}
-
-ThinOut::Choice ThinOut::best_choice(VertexId v) const {
-  const Halfedges& mesh = mesh_->mesh;
-  Choice best{none<HalfedgeId>(), -2};
-  const auto consider = [&](HalfedgeId h) {
-    if (!can_collapse(*mesh_, h)) return;
-    const double after = score_after(h);
-    if (after > best.score) best = {h, after};
-  };
-  visit_outgoing(mesh, v, consider);
-  return best;
 }
 
 void ThinOut::push(VertexId v) {
@@ -168,7 +150,7 @@ void ThinOut::step() {
   const IndexedHeap::Entry entry = heap_.pop();
   const VertexId v{entry.element};
   if (!is_candidate(v)) return;
-  const Choice choice = best_choice(v);
+  const CollapseChoice choice = best_choice(v);
   if (choice.halfedge.is_none()) return;
   const double rank = (choice.score > fair_score ? 0 : choice.score > 0 ? 1 : 2);
   const double key = star_mass(v) + rank * rank_ + line_rank(v);

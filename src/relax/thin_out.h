@@ -8,7 +8,7 @@
 #pragma once
 
 #include "base/heap.h"
-#include "mesh/triangulation.h"
+#include "relax/face_score.h"
 #include "sample/samples.h"
 
 namespace isolod {
@@ -33,16 +33,11 @@ class ThinOut {
   Status finish(Arena& arena);
 
  private:
-  struct Choice {
-    HalfedgeId halfedge;
-    double score;
-  };
   bool is_candidate(VertexId v) const;
   double star_mass(VertexId v) const;
   double line_spacing(VertexId v) const;
   double line_rank(VertexId v) const;
-  double score_after(HalfedgeId h) const;
-  Choice best_choice(VertexId v) const;
+  CollapseChoice best_choice(VertexId v) const;
   void push(VertexId v);
   void push_star(VertexId v);
   void remove(HalfedgeId h);

@@ -180,6 +180,26 @@ TEST_CASE("relaxation: samples on features slide on their own line and pass none
   }
 }
 
+TEST_CASE("relaxation: sliding leaves no gap in a line") {
+  for (const std::uint32_t count : {120U, 1000U}) {
+    CAPTURE(count);
+    Relaxed r(support::made("cylinder_open", 6000), count, 0, {}, true);
+    for (int i = 0; i < 40; ++i) r.relaxation.iterate();
+    const Halfedges& mesh = r.mesh().mesh;
+    double sum = 0, longest = 0, shortest = 1e300, intervals = 0;
+    for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
+      if (!mesh.is_boundary(h)) continue;
+      const double size = distance(r.at(mesh.origin[h]), r.at(mesh.target(h)));
+      sum += size;
+      longest = std::max(longest, size);
+      shortest = std::min(shortest, size);
+      intervals += 1;
+    }
+    CHECK(longest < 1.25 * sum / intervals);
+    CHECK(shortest > 0.8 * sum / intervals);
+  }
+}
+
 TEST_CASE("relaxation: under uniform density the cells become equal") {
   for (const char* name : {"sphere", "torus"}) {
     CAPTURE(std::string(name));

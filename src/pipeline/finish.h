@@ -1,4 +1,5 @@
-// From a relaxed mesh to a result: the worst faces improved, places lifted to points, fitted if that is asked for, triangles listed.
+// From a relaxed mesh to a result: the worst faces improved, places lifted to points, fitted if that is asked for,
+// triangles listed.
 #pragma once
 
 #include "relax/mend_flat.h"

@@ -332,25 +332,13 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   }
 }
 
-/// Faces worse than `wanted_score` are bettered by moves and flips alone, before the relaxation: it keeps each face on
-/// its side, and a fold would grow.
-Status right_faces(State& s, double wanted_score) {
-  WorstFacesOptions options;
-  options.wanted_score = wanted_score;
-  options.resettles = false;
-  return improve_worst_faces(s.surface, nullptr, options, s.stitch.mesh(), s.samples, *s.arena);
-}
-
 bool is_thinned(const State& s) { return s.plan.splits == 0 && s.plan.first_count > s.options.vertex_count; }
 
 /// Samples that the first mesh has over its budget are taken out again.
 Status step_thin(State& s, bool& done, std::uint64_t& units) {
   units = 100;
   done = !is_thinned(s);
-  if (done) {
-    units = face_units(s);
-    return s.options.remove_seams ? right_faces(s, 0) : Status();
-  }
+  if (done) return {};
   if (!s.stage_begun) {
     s.before_thin = s.arena->mark();
     ThinOptions options;
@@ -368,7 +356,9 @@ Status step_thin(State& s, bool& done, std::uint64_t& units) {
   s.arena->rewind_scratch(s.before_thin);
   s.is_thinnest = s.samples.count() > s.options.vertex_count;
   if (s.is_thinnest) return fail(Status::budget_too_small, Element::count, s.samples.count());
-  return right_faces(s, WorstFacesOptions().wanted_score);
+  WorstFacesOptions options;
+  options.resettles = false;
+  return improve_worst_faces(s.surface, nullptr, options, s.stitch.mesh(), s.samples, *s.arena);
 }
 
 Status step_levels(State& s, bool& done, std::uint64_t& units) {

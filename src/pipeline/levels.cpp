@@ -1,6 +1,7 @@
 #include "pipeline/levels.h"
 
 #include "base/status.h"
+#include "relax/face_score.h"
 #include "relax/insert.h"
 #include "relax/line_counts.h"
 #include "result/feature_lines.h"
@@ -11,7 +12,8 @@ inline namespace v1 {
 namespace {
 
 constexpr std::uint32_t trial_iterations = 15;
-constexpr double most_bent = 0.002;  // of the samples of a first level that is to be split
+constexpr double most_bent = 0.002;    // of the samples of a first level that is to be split
+constexpr double most_folded = 0.002;  // of the faces of any level, where there is a finer one to start from
 constexpr std::uint32_t cover_period = 5;
 constexpr std::uint32_t loop_period = 10;  // iterations from one closing of the loop to the next
 constexpr std::uint32_t quiet_end = 5;     // iterations of a level behind the last one
@@ -118,6 +120,14 @@ Status Levels::begin_thin(const Surface& surface, bool keep_lines, Triangulation
   return thin_out_.begin(surface, options, mesh, samples, arena);
 }
 
+/// Faces that are turned over get right again by moves and flips: relaxation keeps each face on its side.
+Status Levels::right_faces(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) const {
+  WorstFacesOptions options;
+  options.wanted_score = 0;
+  options.resettles = false;
+  return improve_worst_faces(surface, features(), options, mesh, samples, arena);
+}
+
 Status Levels::begin_split(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
   std::size_t edges = 0;
   for (HalfedgeId h : Ids<HalfedgeId>(mesh.mesh.halfedge_count())) {
@@ -140,11 +150,21 @@ Status Levels::begin_split(const Surface& surface, Triangulation& mesh, Samples&
                       samples, arena);
 }
 
+/// Whether more than a few faces are needles, or turned against the surface.
+bool Levels::is_folded(const Surface& surface, const Halfedges& mesh, const Samples& samples) const {
+  std::size_t folded = 0;
+  for (FaceId f : Ids<FaceId>(mesh.face_count())) {
+    const VertexId corners[3] = {mesh.origin[halfedge(f, 0)], mesh.origin[halfedge(f, 1)], mesh.origin[halfedge(f, 2)]};
+    folded += face_score(surface, samples, corners) < fair_score;
+  }
+  return static_cast<double>(folded) > most_folded * static_cast<double>(mesh.face_count());
+}
+
 /// A piece of an iteration, and at its end what follows.
-void Levels::relax(std::size_t sample_count, Arena& arena) {
+void Levels::relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena) {
   if (!relaxation_.step()) return;
   if (level_ == 0 && !is_finest() && iteration_ == trial_iterations &&
-      relaxation_.report().bent > most_bent * static_cast<double>(sample_count)) {
+      relaxation_.report().bent > most_bent * static_cast<double>(samples.count())) {
     phase_ = Phase::unresolved;
     return;
   }
@@ -155,6 +175,7 @@ void Levels::relax(std::size_t sample_count, Arena& arena) {
   if (iteration_ < last) return;
   arena.rewind_scratch(scratch_);
   phase_ = is_finest() ? Phase::done : Phase::level_end;
+  if (plan_.splits > 0 && is_folded(surface, mesh, samples)) phase_ = Phase::unresolved;
 }
 
 Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
@@ -179,9 +200,10 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
     case Phase::begin_relax:
       phase_ = Phase::relax;
       iteration_ = 0;
+      ISOLOD_TRY(right_faces(surface, mesh, samples, arena));
       return relaxation_.begin(surface, features(), mesh, samples, relax_options(), arena);
     case Phase::relax:
-      relax(samples.count(), arena);
+      relax(surface, mesh.mesh, samples, arena);
       return {};
     case Phase::level_end:
       phase_ = Phase::begin_split;

@@ -9,6 +9,7 @@
 #include "relax/relaxation.h"
 #include "relax/split_edges.h"
 #include "relax/thin_out.h"
+#include "relax/worst_faces.h"
 #include "sample/calibrate.h"
 
 namespace isolod {
@@ -46,8 +47,8 @@ class Levels {
   /// Whether a level other than the last has been relaxed and is about to be split; the next step goes on.
   bool is_level_end() const { return phase_ == Phase::level_end; }
   std::uint32_t level_count() const { return plan_.count[level_]; }  ///< of the level that is worked on
-  /// Whether the first level was given up because too many of its stars are folded up, and there is a finer one to
-  /// start from.
+  /// Whether the run was given up because the first level was too coarse for the shape: too many stars are folded up
+  /// there, or faces turned over here. There is a finer one to start from.
   bool is_unresolved() const { return phase_ == Phase::unresolved; }
   /// Roughly, 0 to 1: a level costs four times what the one before did.
   double share_done() const;
@@ -72,10 +73,12 @@ class Levels {
   Status match_lines(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   Status begin_thin(const Surface& surface, bool keep_lines, Triangulation& mesh, Samples& samples, Arena& arena);
   Status begin_split(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
-  void relax(std::size_t sample_count, Arena& arena);
+  bool is_folded(const Surface& surface, const Halfedges& mesh, const Samples& samples) const;
+  void relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena);
   bool is_finest() const { return level_ == plan_.splits; }
   std::uint32_t iterations(std::uint32_t level) const;
   double line_rate(std::uint32_t level) const;
+  Status right_faces(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) const;
   RelaxOptions relax_options() const;
 
   LevelPlan plan_;

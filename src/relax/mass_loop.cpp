@@ -35,7 +35,7 @@ void MassLoop::add_mass(SampleId s, const StarCell& cell) {
   count_ += 1;
 }
 
-/// Up to the mean, which is taken off at the end. 0 for a held sample.
+/// Up to the mean, which is taken off at the end.
 double MassLoop::error_of(SampleId s, const StarCell& cell) {
   if (!is_counted(samples_, s, cell)) return 0;
   const double error = logarithm(cell.mass / (mass_ / count_) * whole_turn / cell.angle);
@@ -64,8 +64,15 @@ void MassLoop::step(Span<const StarCell> cell) {
       return;
     case Phase::errors:
       if (!sweep_.over<SampleId>(count, [&](SampleId s) { error_[s] = error_of(s, cell[s]); })) return;
-      phase_ = Phase::average;
+      phase_ = Phase::fill;
       return;
+    case Phase::fill: {
+      const auto fill = [&](SampleId s) {
+        if (!is_counted(samples_, s, cell[s])) error_[s] = mean();
+      };
+      if (sweep_.over<SampleId>(count, fill)) phase_ = Phase::average;
+      return;
+    }
     case Phase::average: {
       if (!sweep_.over<SampleId>(count, [&](SampleId s) { averaged_[s] = average_around(s); })) return;
       const Span<double> swap = error_;
@@ -75,15 +82,12 @@ void MassLoop::step(Span<const StarCell> cell) {
       return;
     }
     case Phase::correct: {
-      const double mean = count_ > 0 ? sum_ / count_ : 0;
       const auto correct = [&](SampleId s) {
         if (samples_.held[s]) return;
-        const double c = samples_.correction[s] + loop_gain * (error_[s] - mean);
+        const double c = samples_.correction[s] + loop_gain * (error_[s] - mean());
         samples_.correction[s] = greater(-most_correction, smaller(most_correction, c));
       };
       if (!sweep_.over<SampleId>(count, correct)) return;
-      mass_ = sum_ = count_ = 0;
-      round_ = 0;
       phase_ = Phase::done;
       return;
     }

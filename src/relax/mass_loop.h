@@ -3,7 +3,8 @@
 // design.md, "The weight that Lloyd needs is not the density": weights d^2 reach the wished density only for many
 // samples. So each sample carries a correction c of its weight, and c grows by a gain times the logarithm of its cell's
 // mass over its share of density, averaged over a few rings. The share of a sample is the angle of its star over two
-// pi. Samples that are held keep c = 0 and are left out of the averaging, which therefore does not cross features.
+// pi. Samples that are held keep c = 0 and are left out of the averaging, which therefore does not cross features. A
+// cell without mass, of a star that is folded up, counts as one of the mean error: it says nothing.
 #pragma once
 
 #include "relax/star_cells.h"
@@ -16,13 +17,18 @@ class MassLoop {
  public:
   /// 16 bytes a sample of scratch stay with the caller's scope.
   Status begin(const Triangulation& mesh, const Samples& samples, Arena& arena);
-  void start() { phase_ = Phase::masses; }
+  void start() {
+    phase_ = Phase::masses;
+    mass_ = sum_ = count_ = 0;
+    round_ = 0;
+  }
   /// A range of samples.
   void step(Span<const StarCell> cell);
   bool done() const { return phase_ == Phase::done; }
 
  private:
-  enum class Phase : std::uint8_t { masses, errors, average, correct, done };
+  enum class Phase : std::uint8_t { masses, errors, fill, average, correct, done };
+  double mean() const { return count_ > 0 ? sum_ / count_ : 0; }
   void add_mass(SampleId s, const StarCell& cell);
   double error_of(SampleId s, const StarCell& cell);
   double average_around(SampleId s) const;

@@ -20,6 +20,16 @@ constexpr double far_reach = 0.8;         // wished edge lengths; a regular cell
 constexpr double pull = 0.3;              // of the way to what is far
 constexpr double longest_step = 0.25;     // wished edge lengths
 constexpr double most_of_interval = 0.3;  // that a sample slides at once
+constexpr double evening = 0.5;           // part of a slide that evens out the intervals of the line
+
+/// Those at the other ends of the two edges of v's line.
+template <class Visit>
+void visit_line_neighbours(const Triangulation& mesh, VertexId v, Visit visit) {
+  visit_outgoing(mesh.mesh, v, [&](HalfedgeId h) {
+    if (mesh.is_fixed(h)) visit(mesh.mesh.target(h));
+    if (mesh.mesh.is_boundary(prev(h)) && mesh.is_fixed(prev(h))) visit(mesh.mesh.apex(h));
+  });
+}
 
 bool gets_unfair(double before, double after) { return after < fair_score && after < before; }
 
@@ -150,14 +160,22 @@ bool Relaxation::move_by(SampleId s, Vec3 way) {
 /// How far v may slide on its line at once.
 double Relaxation::room_on_line(VertexId v) const {
   double least = 1e300;
-  const auto look_along = [&](HalfedgeId h, VertexId other) {
-    if (mesh_->is_fixed(h)) least = smaller(least, distance(site_[v].position, site_[other].position));
-  };
-  visit_outgoing(mesh_->mesh, v, [&](HalfedgeId h) {
-    look_along(h, mesh_->mesh.target(h));
-    look_along(prev(h), mesh_->mesh.apex(h));
-  });
+  visit_line_neighbours(
+      *mesh_, v, [&](VertexId other) { least = smaller(least, distance(site_[v].position, site_[other].position)); });
   return most_of_interval * least;
+}
+
+/// Towards equal density on both sides along the line. The cells alone leave gaps that a free sample is drawn into: an
+/// interval of 1.7 times the mean on the rim of a cylinder.
+Vec3 Relaxation::way_to_even(VertexId v) const {
+  Vec3 sum{0, 0, 0};
+  double weights = 0;
+  visit_line_neighbours(*mesh_, v, [&](VertexId other) {
+    const double weight = square_root(0.5 * (site_[v].density + site_[other].density));
+    sum = sum + weight * (site_[other].position - site_[v].position);
+    weights += weight;
+  });
+  return weights > 0 ? 1 / weights * sum : sum;
 }
 
 bool Relaxation::slide_by(SampleId s, Vec3 way) {
@@ -192,7 +210,7 @@ Vec3 Relaxation::pull_of(SampleId s) const {
 Vec3 Relaxation::step_of(SampleId s) const {
   const Vec3 way = 1 / cell_[s].weight * cell_[s].moment;
   if (is_bent_[s]) return flatten(way, area_vector(*surface_, samples_.place[s].face));
-  if (samples_.held[s]) return options_.step * way;
+  if (samples_.held[s]) return (1 - evening) * options_.step * way + evening * way_to_even(vertex(s));
   if (covers_ && reach_of(s) > far_reach) return pull_of(s);
   return options_.step * flatten(way, StarNormal(mesh_->mesh, site_, vertex(s)).sum);
 }

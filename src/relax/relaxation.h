@@ -8,10 +8,10 @@
 //
 // All samples move at once, from their old places: each by the over-relaxed step to the centroid of its bounded Voronoi
 // cell, the part of it along the surface, walked straight on over the original faces. A sample on a feature slides
-// along it by the same centroid, of its cells on both sides; one at a corner, or that keeps a line's shape, stays. The
-// cell of a sample whose star is folded up is taken from the surface (`Tiles`). A step that would turn a face over is
-// halved or dropped. Then edges that are no feature are flipped by their angles
-// (Bobenko and Springborn 2007). The mesh is a valid manifold with the same count after every iteration.
+// along it, half by the same centroid, of its cells on both sides, half to even out the line; one at a corner, or that
+// keeps a line's shape, stays. The cell of a sample whose star is folded up is taken from the surface (`Tiles`). A step
+// that would turn a face over is halved or dropped. Then edges that are no feature are flipped by their angles (Bobenko
+// and Springborn 2007). The mesh is a valid manifold with the same count after every iteration.
 #pragma once
 
 #include "isolod/options.h"
@@ -76,6 +76,7 @@ class Relaxation {
   bool keeps_upright(VertexId v, Vec3 there) const;
   bool keeps_sides(VertexId v, Vec3 there) const;
   double room_on_line(VertexId v) const;
+  Vec3 way_to_even(VertexId v) const;
   bool wants_flip(HalfedgeId h) const;
   void flip_edge(HalfedgeId h);
 

@@ -5,8 +5,7 @@
 namespace isolod {
 inline namespace v1 {
 
-void Finish::begin(const Backbones* features, const FinishOptions& options) {
-  features_ = features;
+void Finish::begin(const FinishOptions& options) {
   options_ = options;
   phase_ = options.improves ? Phase::begin : Phase::mend;
 }
@@ -16,7 +15,7 @@ Status Finish::step(const Surface& surface, Triangulation& mesh, Samples& sample
     case Phase::begin:
       phase_ = Phase::improve;
       mark_ = arena.mark();
-      return worst_.begin(surface, features_, {}, mesh, samples, arena);
+      return worst_.begin(surface, nullptr, {}, mesh, samples, arena);  // lines are even already
     case Phase::improve:
       worst_.step();
       if (!worst_.done()) return {};

@@ -19,8 +19,7 @@ struct FinishOptions {
 /// A stage: begin, step until done.
 class Finish {
  public:
-  /// `features` are the backbones of the surface without seams, or null where it has none.
-  void begin(const Backbones* features, const FinishOptions& options);
+  void begin(const FinishOptions& options);
   /// A range of samples, a bad face, or a linear pass. Results: 24 bytes a sample and 12 a face.
   Status step(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   bool done() const { return phase_ == Phase::done; }
@@ -30,7 +29,6 @@ class Finish {
 
  private:
   enum class Phase : std::uint8_t { begin, improve, mend, lift, fit, list, done };
-  const Backbones* features_ = nullptr;
   FinishOptions options_;
   Phase phase_ = Phase::done;
   WorstFaces worst_;

@@ -390,8 +390,7 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
 Status step_lift(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
   if (!s.stage_begun) {
-    const Backbones* features = s.options.remove_seams ? s.levels.features() : nullptr;
-    s.finish.begin(features, {s.options.remove_seams, s.options.fit});
+    s.finish.begin({s.options.remove_seams, s.options.fit});
   }
   ISOLOD_TRY(s.finish.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
   done = s.finish.done();

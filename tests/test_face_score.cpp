@@ -59,7 +59,7 @@ TEST_CASE("face_score: a flip is weighed by the worse of its two faces") {
 }
 
 TEST_CASE("face_score: a face across the surface at its corners counts less; corners of lines have no say") {
-  Square bent(2);
+  Square bent(20);
   CHECK(bent.score(0, 1, 2) < 0.99);
   CHECK(bent.score(0, 1, 2) > 0.5);
   for (std::uint32_t i = 0; i < 4; ++i) {

@@ -70,7 +70,8 @@ constexpr double score_of_32_degrees = 0.6119;
 }  // namespace
 
 TEST_CASE("worst_faces: samples thrown onto their neighbours' places come back to good ones, few or many") {
-  const std::pair<const char*, std::uint32_t> cases[] = {{"sphere", 60}, {"torus", 60}, {"sphere", 1500}, {"knot", 1500}};
+  const std::pair<const char*, std::uint32_t> cases[] = {
+      {"sphere", 60}, {"torus", 60}, {"sphere", 1500}, {"knot", 1500}};
   for (const auto& [name, count] : cases) {
     CAPTURE(std::string(name));
     CAPTURE(count);
@@ -85,7 +86,8 @@ TEST_CASE("worst_faces: samples thrown onto their neighbours' places come back t
 }
 
 TEST_CASE("worst_faces: no least angle under 32 degrees is left where only a boundary or a right angle is in the way") {
-  const std::pair<const char*, double> cases[] = {{"disk", 0}, {"saddle", 0}, {"head", 0}, {"cube", 40}, {"bracket", 40}};
+  const std::pair<const char*, double> cases[] = {
+      {"disk", 0}, {"saddle", 0}, {"head", 0}, {"cube", 40}, {"bracket", 40}};
   for (const auto& [name, angle] : cases) {
     CAPTURE(std::string(name));
     Run run(name, 4000, 2500, angle);
@@ -123,7 +125,8 @@ TEST_CASE("worst_faces: pinned samples stay, those on lines stay on lines, lines
     CHECK(distance(before[i], run.at(VertexId{i})) == 0);
   }
   for (std::uint32_t i = 0; i < 1200; ++i) {
-    if (run.s.samples.held[i] == hold_line) CHECK((run.s.surface.line[run.s.samples.anchor[i].halfedge] & line_feature) != 0);
+    if (run.s.samples.held[i] == hold_line)
+      CHECK((run.s.surface.line[run.s.samples.anchor[i].halfedge] & line_feature) != 0);
   }
   for (HalfedgeId h : Ids<HalfedgeId>(run.mesh().mesh.halfedge_count())) {
     if (!run.mesh().is_fixed(h)) continue;
@@ -132,7 +135,9 @@ TEST_CASE("worst_faces: pinned samples stay, those on lines stay on lines, lines
   }
 }
 
-TEST_CASE("worst_faces: without backbones held samples stay, and without resettling the connectivity keeps its valences' sum") {
+TEST_CASE(
+    "worst_faces: without backbones held samples stay, and without resettling the connectivity keeps its valences' "
+    "sum") {
   Run run("bracket", 4000, 600, 40);
   run.spoil(9);
   std::vector<LineAnchor> anchors(run.s.samples.anchor.begin(), run.s.samples.anchor.end());
@@ -155,7 +160,8 @@ TEST_CASE("worst_faces: the same bits again, and piece by piece") {
     WorstFaces stage;
     const std::size_t back = run.block.arena.mark().back;
     const ArenaMark mark = run.block.arena.mark();
-    REQUIRE(stage.begin(run.s.surface, run.s.levels.features(), {}, run.mesh(), run.s.samples, run.block.arena).is_ok());
+    REQUIRE(
+        stage.begin(run.s.surface, run.s.levels.features(), {}, run.mesh(), run.s.samples, run.block.arena).is_ok());
     std::size_t pieces = 0;
     for (; pieces < 100000 && !stage.done(); ++pieces) stage.step();
     REQUIRE(stage.done());
@@ -172,10 +178,10 @@ TEST_CASE("worst_faces: too little memory is a status, and nothing has changed")
   Run run("sphere", 1000, 200);
   run.spoil(7);
   const std::vector<Vec3> before = run.positions();
-  for (std::size_t bytes : {std::size_t{0}, std::size_t{1000}, std::size_t{9000}, std::size_t{12000}, std::size_t{20000}}) {
+  for (std::size_t bytes :
+       {std::size_t{0}, std::size_t{1000}, std::size_t{9000}, std::size_t{12000}, std::size_t{20000}}) {
     support::Block small(bytes);
-    const Status status =
-        improve_worst_faces(run.s.surface, nullptr, {}, run.mesh(), run.s.samples, small.arena);
+    const Status status = improve_worst_faces(run.s.surface, nullptr, {}, run.mesh(), run.s.samples, small.arena);
     CHECK(status == Status::out_of_memory);
     CHECK(small.arena.used() == 0);
     CHECK(same(before, run.positions()));

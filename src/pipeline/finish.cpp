@@ -15,7 +15,7 @@ Status Finish::step(const Surface& surface, Triangulation& mesh, Samples& sample
     case Phase::begin:
       phase_ = Phase::improve;
       mark_ = arena.mark();
-      return worst_.begin(surface, nullptr, {}, mesh, samples, arena);  // lines are even already
+      return worst_.begin(surface, nullptr, options_.worst, mesh, samples, arena);  // lines are even already
     case Phase::improve:
       worst_.step();
       if (!worst_.done()) return {};

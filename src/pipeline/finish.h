@@ -14,6 +14,7 @@ inline namespace v1 {
 struct FinishOptions {
   bool improves = true;  ///< the worst faces
   bool fits = false;     ///< vertices leave the surface where that lessens the distance
+  WorstFacesOptions worst;
 };
 
 /// A stage: begin, step until done.

@@ -334,6 +334,15 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
 
 bool is_thinned(const State& s) { return s.plan.splits == 0 && s.plan.first_count > s.options.vertex_count; }
 
+/// A few samples for a whole shape: better angles would cost too much of it.
+WorstFacesOptions polish_options(const State& s) {
+  WorstFacesOptions options;
+  if (!is_thinned(s) || 4 * std::uint64_t{s.options.vertex_count} >= s.plan.first_count) return options;
+  options.wanted_score = 0.25;
+  options.resettles = false;
+  return options;
+}
+
 /// Samples that the first mesh has over its budget are taken out again.
 Status step_thin(State& s, bool& done, std::uint64_t& units) {
   units = 100;
@@ -356,7 +365,7 @@ Status step_thin(State& s, bool& done, std::uint64_t& units) {
   s.arena->rewind_scratch(s.before_thin);
   s.is_thinnest = s.samples.count() > s.options.vertex_count;
   if (s.is_thinnest) return fail(Status::budget_too_small, Element::count, s.samples.count());
-  WorstFacesOptions options;
+  WorstFacesOptions options = polish_options(s);
   options.resettles = false;
   return improve_worst_faces(s.surface, nullptr, options, s.stitch.mesh(), s.samples, *s.arena);
 }
@@ -390,7 +399,7 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
 Status step_lift(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
   if (!s.stage_begun) {
-    s.finish.begin({s.options.remove_seams, s.options.fit});
+    s.finish.begin({s.options.remove_seams, s.options.fit, polish_options(s)});
   }
   ISOLOD_TRY(s.finish.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
   done = s.finish.done();

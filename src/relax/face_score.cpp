@@ -35,7 +35,7 @@ double face_score(const Stand& a, const Stand& b, const Stand& c) {
   const double others = smaller(x, smaller(y, z)) == x ? y * z : smaller(y, z) == y ? x * z : x * y;
   constexpr double two_over_root_three = 1.1547005383792515;
   const double sine = others > 0 ? two_over_root_three * square_root(dot(area, area) / others) : 0;
-  return smaller(sine, 1.4 * turn);
+  return sine * smaller(1, 1.6 * turn);
 }
 
 double face_score(const Surface& surface, const Samples& samples, const VertexId (&corners)[3]) {

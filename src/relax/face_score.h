@@ -20,8 +20,8 @@ struct Stand {
 Stand stand_of(const Surface& surface, const Samples& samples, SampleId s);
 
 /// The sine of the least angle over that of 60 degrees: 1 for an equilateral face along the surface at its corners,
-/// less for a needle, 0 without area. Across the surface at most twice the cosine to its normal; below 0, the cosine,
-/// for a face that is turned against the surface.
+/// less for a needle, 0 without area; less too for one that lies more than 51 degrees across the surface; below 0, the
+/// cosine, for a face that is turned against it.
 double face_score(const Stand& a, const Stand& b, const Stand& c);
 double face_score(const Surface& surface, const Samples& samples, const VertexId (&corners)[3]);
 

@@ -13,7 +13,7 @@ inline namespace v1 {
 
 class Resettle {
  public:
-  /// Faces under `wanted_score` are bad. Scratch stays with the caller's scope: some 50 KB.
+  /// Faces under `wanted_score` are bad. Scratch stays with the caller's scope: some 20 KB.
   Status begin(const Surface& surface, const Backbones* features, double wanted_score, Triangulation& mesh,
                Samples& samples, StarMoves& moves, Arena& arena);
   /// Tries what may help face f until something does, each try counted off. Faces may be dead afterwards.

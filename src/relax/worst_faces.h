@@ -14,7 +14,7 @@ namespace isolod {
 inline namespace v1 {
 
 struct WorstFacesOptions {
-  double wanted_score = 0.68;  ///< least angles of 36 degrees
+  double wanted_score = 0.65;  ///< least angles of 34 degrees
   bool resettles = true;
 };
 

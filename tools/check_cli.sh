@@ -59,7 +59,7 @@ no_leftovers() {
 runs "help" 0 "$isolod" --help
 holds "help lists exit codes" grep -q budget_too_small output.txt
 runs "version" 0 "$isolod" --version
-for command in remesh info compare make cut validate; do
+for command in remesh lods info compare make cut validate; do
   runs "help of $command" 0 "$isolod" $command --help
   refuses "$command refuses an unknown option" 2 "--nonsense" "$isolod" $command --nonsense
   refuses "$command wants its file" 2 "$command" "$isolod" $command
@@ -211,6 +211,28 @@ holds "leaves the old file" grep -q precious kept.obj
 ln -s real.obj link.obj
 runs "through a link" 0 "$isolod" remesh torus.off --vertices 700 --quiet -o link.obj
 holds "the link stays" test -L link.obj -a -s real.obj
+runs "levels of detail" 0 "$isolod" lods torus.off --vertices 200,700,50 -o level.obj
+holds "a line for each" test "$(grep -c '^level-[0-9]*\.obj: [0-9]* vertices, [0-9]* triangles$' output.txt)" -eq 3
+holds "and one for all, with the time" grep -Eq '^torus\.off: 3 levels of detail, [0-9.]+ s, ' output.txt
+for count in 700 200 50; do
+  holds "a file of $count" test "$(grep -c '^v ' level-$count.obj)" -eq $count
+  runs "validate it" 0 "$isolod" validate level-$count.obj
+done
+runs "one mesh of the finest" 0 "$isolod" remesh torus.off --vertices 700 --quiet -o alone.obj
+holds "is the same" cmp alone.obj level-700.obj
+mkdir v1.5
+runs "levels in a folder with a dot, fitted" 0 "$isolod" lods torus.off --vertices 300,60 --fit --ascii --quiet -o v1.5/fit.ply
+holds "are there" test -s v1.5/fit-300.ply -a -s v1.5/fit-60.ply
+holds "quiet says nothing" test ! -s output.txt
+refuses "a level twice" 2 "200 is given twice" "$isolod" lods torus.off --vertices 200,700,200 -o x.obj
+refuses "a list with a gap" 2 "--vertices" "$isolod" lods torus.off --vertices 200,,50 -o x.obj
+refuses "levels with seams" 2 "--keep-seams" "$isolod" lods torus.off --vertices 200,50 --keep-seams -o x.obj
+refuses "levels of a file type that is none" 22 "x.xyz" "$isolod" lods torus.off --vertices 200,50 -o x.xyz
+refuses "a level that is too small" 17 "vertices work" "$isolod" lods torus.off --vertices 700,3 -o few.obj
+works="$(sed -n 's/.*: \([0-9]*\) vertices work.*/\1/p' errors.txt)"
+holds "no level is written then" test ! -e few-700.obj
+runs "the number that is named works for it" 0 "$isolod" lods torus.off --vertices "700,${works:-0}" -o few.obj
+refuses "too little memory for levels" 18 "--memory" "$isolod" lods torus.off --vertices 700,50 --memory 64K -o y2.obj
 no_leftovers "nothing is left behind"
 
 echo "$passed passed, $failed failed"

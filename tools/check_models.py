@@ -16,6 +16,7 @@ from pathlib import Path
 from check_bars import BARS, judge_bad, print_table, summarize
 from check_budgets import check_budgets, check_counts
 from check_case import compile_judge, run_case, run_limited
+from check_lods import check_lods
 from check_peer import find_peer
 from check_plan import FOR_CI, MADE, ROWS, make_size, plan
 from check_seams import check_seams
@@ -125,7 +126,8 @@ def main():
     cases = plan(args, models, wanted)
     if cases:
         verdicts += run_cases(args, judge, cases, out)
-    for row, check in {"seams": check_seams, "budgets": check_budgets, "counts": check_counts}.items():
+    rows = {"seams": check_seams, "budgets": check_budgets, "counts": check_counts, "lods": check_lods}
+    for row, check in rows.items():
         if row in wanted:
             verdicts += check(args, models, out)
     if "bad" in wanted and not args.no_bad and (not args.models or args.only):

@@ -28,6 +28,7 @@ ROWS = {
     "seams": "whether the seams of the first mesh show",
     "budgets": "every count from 1 to 300",
     "counts": "20 counts up to four times the input's",
+    "lods": "several levels of detail at once",
     "bad": "broken files",
 }
 OF_MODELS = {"topology", "smooth", "crossings", "sharp", "boundary", "density", "time"}

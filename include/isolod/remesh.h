@@ -147,5 +147,9 @@ Status build_lods(const MeshView& view, const Options& options, Span<const LodRe
 /// Bytes of arena that are enough for any mesh of these counts.
 std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options);
 
+/// The same for these levels of detail at once; `options.vertex_count` does not count.
+std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options,
+                            Span<const LodRequest> requests);
+
 }  // namespace v1
 }  // namespace isolod

@@ -63,8 +63,24 @@ Status build_lods(const MeshView& view, const Options& options, Span<const LodRe
   if (status.is_ok()) status = deliver_all(requests, finest, remesher.result(), coarser);
   arena.rewind_results(mark);
   arena.rewind_scratch(mark);
+  if (status == Status::out_of_memory) {
+    const std::size_t enough = required_memory(view.vertex_count, view.triangle_count, options, requests);
+    if (status.value < enough) status.value = enough;
+  }
   if (report != nullptr) report->status = status;
   return status;
+}
+
+std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options,
+                            Span<const LodRequest> requests) {
+  if (requests.empty()) return 0;
+  const std::uint32_t finest = finest_of(requests);
+  Options finest_options = options;
+  finest_options.vertex_count = requests[finest].vertex_count;
+  std::size_t coarser = 0;
+  for (const LodRequest& request : requests) coarser += sizeof(Lod) + std::size_t{500} * request.vertex_count;
+  coarser -= std::size_t{500} * finest_options.vertex_count;
+  return required_memory(vertex_count, triangle_count, finest_options) + coarser;
 }
 
 }  // namespace v1

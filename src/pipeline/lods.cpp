@@ -70,6 +70,15 @@ Status Lods::begin_thin(const Surface& surface, Arena& arena) {
   return thin_.begin(surface, options, mesh_, samples_, arena);
 }
 
+/// A few samples for a whole shape: better angles would cost too much of it.
+WorstFacesOptions Lods::polish_options() const {
+  WorstFacesOptions options;
+  if (is_near_) return options;
+  options.wanted_score = 0.25;
+  options.resettles = false;
+  return options;
+}
+
 void Lods::begin_relax() {
   LevelPlan plan;
   plan.count[0] = plan.first_count = lods_[at_].vertex_count;
@@ -94,17 +103,20 @@ Status Lods::step(Surface& surface, Arena& arena) {
         return fail(Status::budget_too_small, Element::count, samples_.count());
       }
       begin_relax();
-      return {};
+      return improve_worst_faces(surface, nullptr, polish_options(), mesh_, samples_, arena);
     case Phase::relax:
       ISOLOD_TRY(levels_.step(surface, mesh_, samples_, arena));
       if (!levels_.done()) return {};
-      finish_.begin({true, options_.fit, {}});
+      finish_.begin({true, options_.fit, polish_options()});
       phase_ = Phase::finish;
       return {};
     case Phase::finish:
       ISOLOD_TRY(finish_.step(surface, mesh_, samples_, arena));
       if (!finish_.done()) return {};
-      lods_[at_] = {lods_[at_].vertex_count, true, finish_.positions, finish_.triangles};
+      for (Lod& lod : lods_) {  // equal wishes share one mesh
+        if (lod.vertex_count != samples_.count()) continue;
+        lod = {lod.vertex_count, true, finish_.positions, finish_.triangles};
+      }
       phase_ = Phase::choose;
       return {};
     case Phase::done:

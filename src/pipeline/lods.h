@@ -36,6 +36,7 @@ class Lods {
  private:
   enum class Phase : std::uint8_t { choose, thin, relax, finish, done };
   Status begin_thin(const Surface& surface, Arena& arena);
+  WorstFacesOptions polish_options() const;
   void begin_relax();
 
   Span<Lod> lods_;

@@ -20,7 +20,7 @@ constexpr double far_reach = 0.8;         // wished edge lengths; a regular cell
 constexpr double pull = 0.3;              // of the way to what is far
 constexpr double longest_step = 0.25;     // wished edge lengths
 constexpr double most_of_interval = 0.3;  // that a sample slides at once
-constexpr double evening = 0.5;           // part of a slide that evens out the intervals of the line
+constexpr double evening = 0.7;           // part of a slide that evens out the intervals of the line
 
 /// Those at the other ends of the two edges of v's line.
 template <class Visit>

@@ -8,7 +8,7 @@
 //
 // All samples move at once, from their old places: each by the over-relaxed step to the centroid of its bounded Voronoi
 // cell, the part of it along the surface, walked straight on over the original faces. A sample on a feature slides
-// along it, half by the same centroid, of its cells on both sides, half to even out the line; one at a corner, or that
+// along it, by the same centroid, of its cells on both sides, and by more to even out the line; one at a corner, or that
 // keeps a line's shape, stays. The cell of a sample whose star is folded up is taken from the surface (`Tiles`). A step
 // that would turn a face over is halved or dropped. Then edges that are no feature are flipped by their angles (Bobenko
 // and Springborn 2007). The mesh is a valid manifold with the same count after every iteration.

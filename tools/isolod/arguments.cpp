@@ -155,6 +155,16 @@ std::uint64_t Arguments::required_count(const std::string& option, std::uint64_t
   return parse_count(option, required_text(option), most);
 }
 
+std::vector<std::uint64_t> Arguments::required_counts(const std::string& option, std::uint64_t most) const {
+  const std::string words = required_text(option);
+  std::vector<std::uint64_t> counts;
+  for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+    end = words.find(',', begin);
+    counts.push_back(parse_count(option, words.substr(begin, end - begin), most));
+  }
+  return counts;
+}
+
 std::size_t Arguments::bytes(const std::string& option, std::size_t otherwise) const {
   if (!has(option)) return otherwise;
   std::string word = text(option, "");

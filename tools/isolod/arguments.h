@@ -38,6 +38,9 @@ class Arguments {
   std::uint64_t count(const std::string& option, std::uint64_t otherwise, std::uint64_t most) const;
   std::uint64_t required_count(const std::string& option, std::uint64_t most) const;
 
+  /// Whole numbers with commas between them, at least one.
+  std::vector<std::uint64_t> required_counts(const std::string& option, std::uint64_t most) const;
+
   /// A number of bytes such as 65536, 64M or 1.5G (K, M and G are powers of 1024).
   std::size_t bytes(const std::string& option, std::size_t otherwise) const;
 

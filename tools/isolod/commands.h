@@ -13,6 +13,9 @@ struct Command {
 const CommandRule& remesh_rule();
 int command_remesh(const Arguments& arguments);
 
+const CommandRule& lods_rule();
+int command_lods(const Arguments& arguments);
+
 const CommandRule& info_rule();
 int command_info(const Arguments& arguments);
 

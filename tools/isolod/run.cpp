@@ -31,6 +31,33 @@ bool take_triangles(void* context, const std::uint32_t* corners, std::size_t cou
   return true;
 }
 
+isolod::MeshSink sink_of(TriangleMesh& mesh) {
+  isolod::MeshSink sink;
+  sink.context = &mesh;
+  sink.begin = take_begin;
+  sink.vertices = take_vertices;
+  sink.triangles = take_triangles;
+  return sink;
+}
+
+/// One request for each of `outcome.lods`, which must stay where they are.
+std::vector<isolod::LodRequest> requests_of(const RunSettings& settings, RunOutcome& outcome) {
+  outcome.lods.resize(settings.lods.size());
+  std::vector<isolod::LodRequest> requests;
+  for (std::size_t i = 0; i < settings.lods.size(); ++i) {
+    requests.push_back({settings.lods[i], sink_of(outcome.lods[i])});
+  }
+  return requests;
+}
+
+std::size_t enough_memory(const isolod::MeshView& view, const RunSettings& settings) {
+  RunOutcome none;
+  std::vector<isolod::LodRequest> requests = requests_of(settings, none);
+  if (requests.empty()) return isolod::required_memory(view.vertex_count, view.triangle_count, settings.options);
+  return isolod::required_memory(view.vertex_count, view.triangle_count, settings.options,
+                                 {requests.data(), requests.size()});
+}
+
 /// What the hooks work on.
 struct Watcher {
   ProgressLine line;
@@ -71,13 +98,12 @@ void attempt(const isolod::MeshView& view, const RunSettings& settings, std::siz
   hooks.progress = show_progress;
   hooks.clock = clock_of_run;
   if (settings.watch_lloyd) hooks.lloyd = add_lloyd;
-  isolod::MeshSink sink;
-  sink.context = &outcome.mesh;
-  sink.begin = take_begin;
-  sink.vertices = take_vertices;
-  sink.triangles = take_triangles;
+  std::vector<isolod::LodRequest> requests = requests_of(settings, outcome);
   const double start = now_seconds();
-  outcome.status = isolod::remesh(view, settings.options, sink, &outcome.report, arena, hooks);
+  outcome.status = requests.empty()
+                       ? isolod::remesh(view, settings.options, sink_of(outcome.mesh), &outcome.report, arena, hooks)
+                       : isolod::build_lods(view, settings.options, {requests.data(), requests.size()}, &outcome.report,
+                                            arena, hooks);
   outcome.seconds = now_seconds() - start;
 }
 
@@ -98,7 +124,7 @@ RunOutcome run_remesh(const isolod::MeshView& view, const RunSettings& settings)
     attempt(view, settings, settings.memory_bytes, outcome);
     return outcome;
   }
-  const std::size_t bytes = isolod::required_memory(view.vertex_count, view.triangle_count, settings.options);
+  const std::size_t bytes = enough_memory(view, settings);
   attempt(view, settings, bytes, outcome);
   const Status& status = outcome.status;
   if (status == Status::out_of_memory && status.element == isolod::Element::byte && status.value > bytes) {

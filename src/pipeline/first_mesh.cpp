@@ -88,7 +88,7 @@ std::uint32_t ample_count(const State& s, const DensityIntegrals& integrals) {
       std::int64_t{s.report.components} - (integrals.euler_characteristic + s.report.boundary_loops) / 2;
   const std::int64_t wanted = 240 + 60 * (s.report.components + handles) + 12 * std::int64_t{s.report.boundary_loops} +
                               4 * std::int64_t{integrals.corner_count};
-  const std::int64_t most = most_first_count(s.view.triangle_count);
+  const std::int64_t most = static_cast<std::int64_t>(most_first_count(s.view.triangle_count));
   return static_cast<std::uint32_t>(wanted < most ? wanted : most);
 }
 

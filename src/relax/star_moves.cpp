@@ -9,6 +9,10 @@
 namespace isolod {
 inline namespace v1 {
 
+namespace {
+constexpr double pattern_step[3] = {-1, 0, 1};  // of a pattern of places to try, along one axis
+}
+
 Status StarMoves::begin(const Surface& surface, const Backbones* features, Triangulation& mesh, Samples& samples,
                         Arena& arena) {
   surface_ = &surface;
@@ -144,7 +148,7 @@ bool StarMoves::move_on_surface(VertexId v, double reach, double& best) {
   const Vec3 y = cross(normal, x);
   bool moved = false;
   for (std::int32_t i = 0; i < 9; ++i) {
-    const double along = static_cast<double>(i % 3 - 1), across = static_cast<double>(i / 3 - 1);
+    const double along = pattern_step[i % 3], across = pattern_step[i / 3];
     SurfacePlace there;
     if (i == 4 || !walk_straight(*surface_, from, reach * (along * x + across * y), there)) continue;
     moved = try_out(place, there, v, best) || moved;
@@ -159,7 +163,7 @@ bool StarMoves::move_anywhere(VertexId v, double reach, double& best) {
   const Vec3 here = at(v);
   bool moved = false;
   for (std::int32_t i = 0; i < 27; ++i) {
-    const Vec3 way{static_cast<double>(i % 3 - 1), static_cast<double>(i / 3 % 3 - 1), static_cast<double>(i / 9 - 1)};
+    const Vec3 way{pattern_step[i % 3], pattern_step[i / 3 % 3], pattern_step[i / 9]};
     moved = try_out(place, descend(*surface_, from.face, here + reach * way), v, best) || moved;
   }
   return moved;

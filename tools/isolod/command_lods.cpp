@@ -66,6 +66,7 @@ int command_lods(const Arguments& arguments) {
   settings.lods = vertices;
   const isolod::WriteOptions format = write_options(output, arguments.has("--ascii"));
   std::vector<std::unique_ptr<OutputFile>> files;
+  files.reserve(vertices.size());
   for (const std::uint32_t count : vertices) files.push_back(std::make_unique<OutputFile>(name_of(output, count)));
 
   catch_interrupts();

@@ -96,7 +96,7 @@ Status Levels::find_features(Surface& surface, Arena& arena) {
 /// The number of samples on every feature that this level wishes, and their places.
 Status Levels::match_lines(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
   if (features() == nullptr) return {};
-  if (level_ > 0 || options_.has_other_lines) {
+  if (level_ > 0) {
     const ArenaMark mark = arena.mark();
     LineSamples wished;
     ISOLOD_TRY(sample_lines(surface, features_, line_rate(level_), plan_.count[level_], wished, arena));
@@ -194,6 +194,9 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
       return begin_thin(surface, false, mesh, samples, arena);
     case Phase::insert:
       phase_ = Phase::begin_relax;
+      if (samples.count() > plan_.count[level_] && is_finest()) {
+        return fail(Status::budget_too_small, Element::count, samples.count());
+      }
       if (samples.count() >= plan_.count[level_]) return {};
       return insert_where_sparse(surface, plan_.count[level_] - static_cast<std::uint32_t>(samples.count()), mesh,
                                  samples, arena);

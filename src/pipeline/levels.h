@@ -34,7 +34,6 @@ struct LevelOptions {
   std::uint32_t coarse_iterations = 160;
   std::uint32_t fine_iterations = 30;
   std::uint32_t only_iterations = 80;  ///< where there is one level alone
-  bool has_other_lines = false;  ///< the first level comes from a mesh of another count: its lines are matched too
 };
 
 /// A stage: begin, step until done.
@@ -46,7 +45,6 @@ class Levels {
   bool done() const { return phase_ == Phase::done; }
   /// Whether a level other than the last has been relaxed and is about to be split; the next step goes on.
   bool is_level_end() const { return phase_ == Phase::level_end; }
-  std::uint32_t level_count() const { return plan_.count[level_]; }  ///< of the level that is worked on
   /// Whether the run was given up because the first level was too coarse for the shape: too many stars are folded up
   /// there, or faces turned over here. There is a finer one to start from.
   bool is_unresolved() const { return phase_ == Phase::unresolved; }

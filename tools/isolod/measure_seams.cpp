@@ -110,14 +110,15 @@ void measure_groups(const Surface& s, const EdgeTable& table, const Band& beside
   for (const Edge& e : table.edges) ++valence[e.a], ++valence[e.b];
   for (std::size_t t = 0; t < s.triangle_count; ++t) {
     const Corners c = corners(s, t);
-    if (hidden.triangle[t] == 0) q[beside.triangle[t]].push_back(triangle_quality(&c[0].x, &c[1].x, &c[2].x));
+    if (hidden.triangle[t] == 0)
+      q[static_cast<std::size_t>(beside.triangle[t])].push_back(triangle_quality(&c[0].x, &c[1].x, &c[2].x));
   }
   const std::vector<Cell> cells = clipped_cells(s, [](Vector) { return 1.0; });
   const std::vector<char> inner = inner_vertices(s, table);
   for (std::size_t v = 0; v < s.vertex_count; ++v) {
     if (hidden.vertex[v] != 0 || inner[v] == 0) continue;
-    area[beside.vertex[v]].push_back(cells[v].area);
-    six[beside.vertex[v]] += valence[v] == 6 ? 1 : 0;
+    area[static_cast<std::size_t>(beside.vertex[v])].push_back(cells[v].area);
+    six[static_cast<std::size_t>(beside.vertex[v])] += valence[v] == 6 ? 1 : 0;
   }
   const auto group = [&](std::size_t side) {
     SeamGroup found;

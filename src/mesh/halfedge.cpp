@@ -109,5 +109,10 @@ HalfedgeId find_halfedge(const Halfedges& mesh, VertexId a, VertexId b) {
   return none<HalfedgeId>();
 }
 
+HalfedgeId find_edge(const Halfedges& mesh, VertexId a, VertexId b) {
+  const HalfedgeId forth = find_halfedge(mesh, a, b);
+  return forth.is_none() ? find_halfedge(mesh, b, a) : forth;
+}
+
 }  // namespace v1
 }  // namespace isolod

@@ -83,5 +83,8 @@ void link_vertices(Halfedges& mesh);
 /// The halfedge from a to b, or none. O(valence).
 HalfedgeId find_halfedge(const Halfedges& mesh, VertexId a, VertexId b);
 
+/// The halfedge from a to b, where there is none that from b to a, or none. O(valence).
+HalfedgeId find_edge(const Halfedges& mesh, VertexId a, VertexId b);
+
 }  // namespace v1
 }  // namespace isolod

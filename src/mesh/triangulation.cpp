@@ -54,9 +54,7 @@ Status reserve(Triangulation& t, std::size_t vertex_capacity, std::size_t face_c
   return {};
 }
 
-bool are_adjacent(const Halfedges& mesh, VertexId a, VertexId b) {
-  return !find_halfedge(mesh, a, b).is_none() || !find_halfedge(mesh, b, a).is_none();
-}
+bool are_adjacent(const Halfedges& mesh, VertexId a, VertexId b) { return !find_edge(mesh, a, b).is_none(); }
 
 bool can_flip(const Triangulation& t, HalfedgeId h) {
   const HalfedgeId opposite = t.mesh.twin[h];

@@ -194,7 +194,7 @@ bool restart_larger(State& s, std::uint64_t least) {
   return true;
 }
 
-/// Too coarse a first mesh does not resolve the shape: its stars fit no map. All is done again from a finer one.
+/// Too coarse a first mesh does not resolve the shape: its stars fold up. All is done again from a finer one.
 void restart_finer(State& s) {
   plan_run(s, s.integrate.integrals(), s.plan.splits - 1);
   restart(s);
@@ -318,29 +318,22 @@ Status step_charts(State& s, bool& done, std::uint64_t& units) {
 
 Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
-  switch (s.piece++) {
-    case 0: {
-      const Status status = s.stitch.finish(*s.arena);
-      done = status == Status::invalid_result && s.plan.splits == 0 && restart_larger(s, 0);
-      return done ? Status() : status;
-    }
-    default:
-      done = true;
-      ISOLOD_TRY(gather_samples(s.sampled(), s.samples, *s.arena));
-      count_samples(s);
-      return {};
+  if (s.piece++ == 0) {
+    const Status status = s.stitch.finish(*s.arena);
+    done = status == Status::invalid_result && s.plan.splits == 0 && restart_larger(s, 0);
+    return done ? Status() : status;
   }
+  done = true;
+  ISOLOD_TRY(gather_samples(s.sampled(), s.samples, *s.arena));
+  count_samples(s);
+  return {};
 }
 
 bool is_thinned(const State& s) { return s.plan.splits == 0 && s.plan.first_count > s.options.vertex_count; }
 
-/// A few samples for a whole shape: better angles would cost too much of it.
 WorstFacesOptions polish_options(const State& s) {
-  WorstFacesOptions options;
-  if (!is_thinned(s) || 4 * std::uint64_t{s.options.vertex_count} >= s.plan.first_count) return options;
-  options.wanted_score = 0.25;
-  options.resettles = false;
-  return options;
+  const bool is_few = is_thinned(s) && 4 * std::uint64_t{s.options.vertex_count} < s.plan.first_count;
+  return is_few ? WorstFacesOptions::for_few() : WorstFacesOptions();
 }
 
 /// Samples that the first mesh has over its budget are taken out again.
@@ -379,7 +372,6 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
     LevelOptions options;
     options.line_rate = s.rates.line;
     options.weight = s.options.weight;
-    if (is_thinned(s)) options.fine_iterations = options.coarse_iterations;
     s.levels.begin(s.plan, options);
     s.lods.begin(s.coarser, s.integrate.integrals(), s.options);
   }
@@ -398,9 +390,7 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
 
 Status step_lift(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
-  if (!s.stage_begun) {
-    s.finish.begin({s.options.remove_seams, s.options.fit, polish_options(s)});
-  }
+  if (!s.stage_begun) s.finish.begin({s.options.remove_seams, s.options.fit, polish_options(s)});
   ISOLOD_TRY(s.finish.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
   done = s.finish.done();
   return {};

@@ -23,10 +23,10 @@ Status copy(Triangulation& mesh, Arena& arena) {
 }
 
 Status copy(Samples& samples, Arena& arena) {
-  ISOLOD_TRY(copy(samples.place, arena));
-  ISOLOD_TRY(copy(samples.anchor, arena));
-  ISOLOD_TRY(copy(samples.held, arena));
-  return copy(samples.correction, arena);
+  const Samples from = samples;
+  ISOLOD_TRY(reserve(samples, from.count(), arena));
+  for (SampleId s : Ids<SampleId>(from.count())) samples.copy(from, s, s);
+  return {};
 }
 
 }  // namespace
@@ -70,14 +70,7 @@ Status Lods::begin_thin(const Surface& surface, Arena& arena) {
   return thin_.begin(surface, options, mesh_, samples_, arena);
 }
 
-/// A few samples for a whole shape: better angles would cost too much of it.
-WorstFacesOptions Lods::polish_options() const {
-  WorstFacesOptions options;
-  if (is_near_) return options;
-  options.wanted_score = 0.25;
-  options.resettles = false;
-  return options;
-}
+WorstFacesOptions Lods::polish_options() const { return is_near_ ? WorstFacesOptions() : WorstFacesOptions::for_few(); }
 
 void Lods::begin_relax() {
   LevelPlan plan;

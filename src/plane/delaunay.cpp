@@ -139,7 +139,7 @@ bool may_leave(const Triangulation& t, VertexId v) {
 
 /// The two ends of the line through v become neighbours on it.
 void fix_between(Triangulation& t, VertexId p, VertexId q, std::uint8_t bits) {
-  const HalfedgeId forth = find_halfedge(t.mesh, p, q), h = forth.is_none() ? find_halfedge(t.mesh, q, p) : forth;
+  const HalfedgeId h = find_edge(t.mesh, p, q);
   t.fixed[h] = bits;
   if (const HalfedgeId g = t.mesh.twin[h]; !g.is_none()) t.fixed[g] = bits;
 }
@@ -171,7 +171,7 @@ HalfedgeId blocking_edge(const PlaneTriangulation& p, VertexId v) {
   do {
     if (!p.t.is_fixed(h) && !mesh.is_boundary(h)) {
       const VertexId a = mesh.apex(mesh.twin[h]), c = mesh.apex(h);
-      const HalfedgeId forth = find_halfedge(mesh, a, c), edge = forth.is_none() ? find_halfedge(mesh, c, a) : forth;
+      const HalfedgeId edge = find_edge(mesh, a, c);
       if (!edge.is_none() && can_flip(p.t, edge)) return edge;
     }
     h = mesh.turn_left(h);

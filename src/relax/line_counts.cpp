@@ -2,17 +2,11 @@
 
 #include "base/status.h"
 #include "relax/drop_dead.h"
-#include "sample/track.h"
 
 namespace isolod {
 inline namespace v1 {
 
 namespace {
-
-HalfedgeId edge_between(const Halfedges& mesh, SampleId a, SampleId b) {
-  const HalfedgeId h = find_halfedge(mesh, vertex(a), vertex(b));
-  return h.is_none() ? find_halfedge(mesh, vertex(b), vertex(a)) : h;
-}
 
 /// Merges s into a neighbour on its line.
 bool merge_along_line(Triangulation& mesh, SampleId s) {
@@ -50,9 +44,8 @@ class LineMatch {
   }
 
   void add(std::size_t b, std::uint32_t count) {
-    const std::size_t inner = riders_.on(b).count;
-    const std::size_t intervals = is_closed(surface_, features_, b) ? inner : inner + 1;
     fill_track(surface_, features_, b, track_);
+    const std::size_t intervals = interval_count(track_, riders_.on(b));
     std::size_t done = 0;
     for (std::size_t i = 0; i < intervals; ++i) {
       const std::size_t until = (i + 1) * count / intervals;
@@ -62,28 +55,18 @@ class LineMatch {
   }
 
  private:
-  double mass_of(std::size_t b, std::size_t i, bool end) const {
-    const Span<const Rider> on = riders_.on(b);
-    const double whole = track_.whole_mass();
-    if (end) return i < on.count ? mass_at(track_, on[i].place) : whole;
-    if (i > 0) return mass_at(track_, on[i - 1].place);
-    return track_.closed ? mass_at(track_, on[on.count - 1].place) - whole : 0;
-  }
-
   /// Puts `count` samples into interval i, the last nearest to its beginning.
   void halve(std::size_t b, std::size_t i, std::uint32_t count) {
     const LineInterval ends = interval_of(surface_, features_, riders_, b, i);
-    const double from = mass_of(b, i, false);
-    double to = mass_of(b, i, true);
+    MassRange range = mass_of_interval(track_, riders_.on(b), i);
     SampleId end = ends.to;
     for (std::uint32_t k = 0; k < count; ++k) {
-      const HalfedgeId h = edge_between(mesh_.mesh, ends.from, end);
+      const HalfedgeId h = find_edge(mesh_.mesh, vertex(ends.from), vertex(end));
       if (h.is_none()) return;
-      to = 0.5 * (from + to);
-      const LinePlace place = place_at_mass(track_, to < 0 ? to + track_.whole_mass() : to);
+      range.to = 0.5 * (range.from + range.to);
       end = SampleId{static_cast<std::uint32_t>(samples_.count())};
       samples_.set_count(samples_.count() + 1);
-      samples_.put_on_line(end, {features_.edge[place.edge], place.along});
+      samples_.put_on_line(end, anchor_at_mass(features_, track_, range.to));
       split_edge(mesh_, h, vertex(end));
     }
   }

@@ -45,7 +45,7 @@ Status Relaxation::begin(const Surface& surface, const Backbones* features, Tria
   phase_ = Phase::look;
   sweep_ = {};
   round_ = 0;
-  closes_loop_ = false;
+  closes_loop_ = covers_ = false;
   ISOLOD_TRY(loop_.begin(mesh, samples, arena));
   ISOLOD_TRY(tiles_.begin(surface, samples, arena));
   ISOLOD_TRY(arena.scratch(samples.count(), is_bent_));
@@ -98,10 +98,9 @@ void Relaxation::look_for_bend(SampleId s) {
   cell_[s].weight = 0;
 }
 
-/// Whether no more faces would be turned against the star than are now.
-bool Relaxation::keeps_upright(VertexId v, Vec3 there) const {
+/// Whether no more faces would be turned against the star, whose normal is given, than are now.
+bool Relaxation::keeps_upright(VertexId v, Vec3 normal, Vec3 there) const {
   const Halfedges& mesh = mesh_->mesh;
-  const Vec3 normal = StarNormal(mesh, site_, v).sum;
   const double least = least_cosine * length(normal);
   const auto is_upright = [&](Vec3 p, HalfedgeId h) {
     const Vec3 n = cross(site_[mesh.target(h)].position - p, site_[mesh.apex(h)].position - p);
@@ -127,8 +126,8 @@ bool Relaxation::keeps_sides(VertexId v, Vec3 there) const {
   return keeps;
 }
 
-bool Relaxation::keeps_faces(VertexId v, Vec3 there) const {
-  return is_bent_[v] ? keeps_sides(v, there) : keeps_upright(v, there);
+bool Relaxation::keeps_faces(VertexId v, Vec3 normal, Vec3 there) const {
+  return is_bent_[v] ? keeps_sides(v, there) : keeps_upright(v, normal, there);
 }
 
 /// Takes a sample to a new place, and back where faces are guarded and one got worse.
@@ -148,11 +147,11 @@ bool Relaxation::take_if_fair(SampleId s, Take take) {
   return false;
 }
 
-bool Relaxation::move_by(SampleId s, Vec3 way) {
+bool Relaxation::move_by(SampleId s, Vec3 normal, Vec3 way) {
   SurfacePlace place;
   if (!walk_straight(*surface_, samples_.place[s], way, place)) return false;
   const Vec3 there = position_of(*surface_, place);
-  if (!keeps_faces(vertex(s), there) || !take_if_fair(s, [&] { samples_.place[s] = place; })) return false;
+  if (!keeps_faces(vertex(s), normal, there) || !take_if_fair(s, [&] { samples_.place[s] = place; })) return false;
   site_[s].position = there;
   return true;
 }
@@ -178,7 +177,7 @@ Vec3 Relaxation::way_to_even(VertexId v) const {
   return weights > 0 ? 1 / weights * sum : sum;
 }
 
-bool Relaxation::slide_by(SampleId s, Vec3 way) {
+bool Relaxation::slide_by(SampleId s, Vec3 normal, Vec3 way) {
   const LineAnchor& anchor = samples_.anchor[s];
   const Vec3 along = surface_->position(surface_->mesh.target(anchor.halfedge)) -
                      surface_->position(surface_->mesh.origin[anchor.halfedge]);
@@ -187,13 +186,11 @@ bool Relaxation::slide_by(SampleId s, Vec3 way) {
   const double wished = dot(way, along) / size;
   const LineAnchor there = slide_along(*surface_, *features_, anchor, greater(-room, smaller(room, wished)));
   const Vec3 point = position_of(*surface_, there);
-  if (!keeps_faces(vertex(s), point) || !take_if_fair(s, [&] { samples_.anchor[s] = there; })) return false;
+  if (!keeps_faces(vertex(s), normal, point) || !take_if_fair(s, [&] { samples_.anchor[s] = there; })) return false;
   site_[s].position = point;
   return true;
 }
 
-/// The way that a sample is to go. On a line its part along that counts; else the part along the star, or along the
-/// surface where the star is folded up: that cell is rough, and the step plain.
 /// How far the cell of a sample reaches, in wished edge lengths.
 double Relaxation::reach_of(SampleId s) const {
   return square_root(tiles_.reach(s).squared * site_[s].density) * options_.line_rate;
@@ -207,12 +204,12 @@ Vec3 Relaxation::pull_of(SampleId s) const {
 
 /// The way that a sample is to go. On a line its part along that counts; else the part along the star, or along the
 /// surface where the star is folded up: that cell is rough, and the step plain.
-Vec3 Relaxation::step_of(SampleId s) const {
+Vec3 Relaxation::step_of(SampleId s, Vec3 normal) const {
   const Vec3 way = 1 / cell_[s].weight * cell_[s].moment;
   if (is_bent_[s]) return flatten(way, area_vector(*surface_, samples_.place[s].face));
   if (samples_.held[s]) return (1 - evening) * options_.step * way + evening * way_to_even(vertex(s));
   if (covers_ && reach_of(s) > far_reach) return pull_of(s);
-  return options_.step * flatten(way, StarNormal(mesh_->mesh, site_, vertex(s)).sum);
+  return options_.step * flatten(way, normal);
 }
 
 /// No longer than a quarter of a wished edge.
@@ -224,10 +221,11 @@ Vec3 Relaxation::shortened(SampleId s, Vec3 way) const {
 void Relaxation::move(SampleId s) {
   const bool slides = samples_.held[s] == hold_line;
   if (samples_.held[s] == hold_place || !(cell_[s].weight > 0)) return;
-  Vec3 way = shortened(s, step_of(s));
+  const Vec3 normal = StarNormal(mesh_->mesh, site_, vertex(s)).sum;
+  Vec3 way = shortened(s, step_of(s, normal));
   for (std::uint32_t halving = 0; halving <= most_halvings; ++halving, way = 0.5 * way) {
     if (halving == 1) ++report_.shortened;
-    if (slides ? slide_by(s, way) : move_by(s, way)) {
+    if (slides ? slide_by(s, normal, way) : move_by(s, normal, way)) {
       ++report_.moved;
       return;
     }

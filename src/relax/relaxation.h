@@ -8,10 +8,10 @@
 //
 // All samples move at once, from their old places: each by the over-relaxed step to the centroid of its bounded Voronoi
 // cell, the part of it along the surface, walked straight on over the original faces. A sample on a feature slides
-// along it, by the same centroid, of its cells on both sides, and by more to even out the line; one at a corner, or that
-// keeps a line's shape, stays. The cell of a sample whose star is folded up is taken from the surface (`Tiles`). A step
-// that would turn a face over is halved or dropped. Then edges that are no feature are flipped by their angles (Bobenko
-// and Springborn 2007). The mesh is a valid manifold with the same count after every iteration.
+// along it, by the same centroid, of its cells on both sides, and by more to even out the line; one at a corner, or
+// that keeps a line's shape, stays. The cell of a sample whose star is folded up is taken from the surface (`Tiles`). A
+// step that would turn a face over is halved or dropped. Then edges that are no feature are flipped by their angles
+// (Bobenko and Springborn 2007). The mesh is a valid manifold with the same count after every iteration.
 #pragma once
 
 #include "isolod/options.h"
@@ -65,15 +65,15 @@ class Relaxation {
   void settle(std::uint32_t i) { tiles_.settle(*mesh_, site_, tiles_.face(i), is_bent_, cell_); }
   double reach_of(SampleId s) const;
   Vec3 pull_of(SampleId s) const;
-  Vec3 step_of(SampleId s) const;
+  Vec3 step_of(SampleId s, Vec3 normal) const;
   Vec3 shortened(SampleId s, Vec3 way) const;
   void move(SampleId s);
-  bool move_by(SampleId s, Vec3 way);
-  bool slide_by(SampleId s, Vec3 way);
+  bool move_by(SampleId s, Vec3 normal, Vec3 way);
+  bool slide_by(SampleId s, Vec3 normal, Vec3 way);
   template <class Take>
   bool take_if_fair(SampleId s, Take take);
-  bool keeps_faces(VertexId v, Vec3 there) const;
-  bool keeps_upright(VertexId v, Vec3 there) const;
+  bool keeps_faces(VertexId v, Vec3 normal, Vec3 there) const;
+  bool keeps_upright(VertexId v, Vec3 normal, Vec3 there) const;
   bool keeps_sides(VertexId v, Vec3 there) const;
   double room_on_line(VertexId v) const;
   Vec3 way_to_even(VertexId v) const;

@@ -207,8 +207,7 @@ bool Resettle::resettle(HalfedgeId merge, const Target& target) {
   const HalfedgeId g = mesh.twin[merge];
   FaceId spare[2] = {face(merge), g.is_none() ? none<FaceId>() : face(g)};
   collapse(*mesh_, merge);
-  HalfedgeId h = find_halfedge(mesh, target.a, target.b);
-  if (h.is_none()) h = find_halfedge(mesh, target.b, target.a);
+  const HalfedgeId h = find_edge(mesh, target.a, target.b);
   if (h.is_none() || (!mesh.is_boundary(h) && spare[1].is_none())) return false;
   split_edge(*mesh_, h, v, spare);
   const SampleId s{v.value};

@@ -3,7 +3,6 @@
 #include "base/status.h"
 #include "relax/middle_place.h"
 #include "sample/riders.h"
-#include "sample/track.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -31,10 +30,7 @@ Status SplitEdges::reserve(std::size_t sample_count, std::uint32_t spare, Arena&
   Samples& samples = *samples_;
   Triangulation& mesh = *mesh_;
   const std::size_t face_count = 4 * coarse_.face_count(), halfedges = 3 * (face_count + 2 * std::size_t{spare});
-  ISOLOD_TRY(arena.result(sample_count + spare, samples.place));
-  ISOLOD_TRY(arena.result(sample_count + spare, samples.anchor));
-  ISOLOD_TRY(arena.result(sample_count + spare, samples.held));
-  ISOLOD_TRY(arena.result(sample_count + spare, samples.correction));
+  ISOLOD_TRY(isolod::reserve(samples, sample_count + spare, arena));
   ISOLOD_TRY(arena.result(sample_count + spare, mesh.mesh.outgoing));
   ISOLOD_TRY(arena.result(halfedges, mesh.mesh.origin));
   ISOLOD_TRY(arena.result(halfedges, mesh.mesh.twin));
@@ -54,24 +50,14 @@ Status SplitEdges::place_on_lines(const Backbones& features, Arena& arena) {
   ISOLOD_TRY(collect_riders(*surface_, features, old_, riders, arena));
   ISOLOD_TRY(begin_track(features, track, arena));
   for (std::size_t b = 0; b < features.count(); ++b) {
-    const Span<const Rider> on = riders.on(b);
-    const bool closed = is_closed(*surface_, features, b);
     fill_track(*surface_, features, b, track);
-    const double whole = track.whole_mass();
-    const std::size_t intervals = closed ? on.count : on.count + 1;
-    for (std::size_t i = 0; i < intervals; ++i) {
-      double from = i > 0    ? mass_at(track, on[i - 1].place)
-                    : closed ? mass_at(track, on[on.count - 1].place) - whole
-                             : 0;
-      const double to = i < on.count ? mass_at(track, on[i].place) : whole;
-      double middle = 0.5 * (from + to);
-      if (middle < 0) middle += whole;
+    const Span<const Rider> on = riders.on(b);
+    for (std::size_t i = 0; i < interval_count(track, on); ++i) {
       const LineInterval ends = interval_of(*surface_, features, riders, b, i);
-      HalfedgeId h = find_halfedge(coarse_, VertexId{ends.from.value}, VertexId{ends.to.value});
-      if (h.is_none()) h = find_halfedge(coarse_, VertexId{ends.to.value}, VertexId{ends.from.value});
+      const HalfedgeId h = find_edge(coarse_, vertex(ends.from), vertex(ends.to));
       if (h.is_none()) return fail(Status::invalid_result, Element::vertex, ends.from.value);
-      const LinePlace there = place_at_mass(track, middle);
-      samples_->put_on_line(middle_[h], {features.edge[there.edge], there.along});
+      const MassRange range = mass_of_interval(track, on, i);
+      samples_->put_on_line(middle_[h], anchor_at_mass(features, track, 0.5 * (range.from + range.to)));
     }
   }
   return {};

@@ -16,6 +16,9 @@ inline namespace v1 {
 struct WorstFacesOptions {
   double wanted_score = 0.65;  ///< least angles of 34 degrees
   bool resettles = true;
+
+  /// For a few samples that stand for a whole shape: better angles would cost too much of it.
+  static WorstFacesOptions for_few() { return {0.25, false}; }
 };
 
 /// A stage: begin, step until done, finish.

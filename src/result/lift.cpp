@@ -33,10 +33,7 @@ Status gather_samples(const SampledSurface& sampled, Samples& samples, Arena& ar
   const Surface& surface = *sampled.surface;
   const SampleNumbers& numbers = sampled.numbers;
   const std::size_t count = numbers.node_count + std::size_t{numbers.line_count} + sampled.places.count;
-  ISOLOD_TRY(arena.result(count, samples.place));
-  ISOLOD_TRY(arena.result(count, samples.anchor));
-  ISOLOD_TRY(arena.result(count, samples.held));
-  ISOLOD_TRY(arena.result(count, samples.correction));
+  ISOLOD_TRY(reserve(samples, count, arena));
   for (double& c : samples.correction) c = 0;
   for (std::uint32_t i = 0; i < numbers.node_count; ++i) {
     const VertexId v = sampled.backbones->node[i];

@@ -90,5 +90,17 @@ LineInterval interval_of(const Surface& surface, const Backbones& features, cons
   return {from, to};
 }
 
+MassRange mass_of_interval(const Track& track, Span<const Rider> on, std::size_t i) {
+  const double whole = track.whole_mass();
+  const double to = i < on.count ? mass_at(track, on[i].place) : whole;
+  if (i > 0) return {mass_at(track, on[i - 1].place), to};
+  return {track.closed ? mass_at(track, on[on.count - 1].place) - whole : 0, to};
+}
+
+LineAnchor anchor_at_mass(const Backbones& features, const Track& track, double mass) {
+  const LinePlace place = place_at_mass(track, mass < 0 ? mass + track.whole_mass() : mass);
+  return {features.edge[place.edge], place.along};
+}
+
 }  // namespace v1
 }  // namespace isolod

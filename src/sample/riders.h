@@ -1,8 +1,8 @@
 // The held samples of a mesh in order along the features that they sit on.
 #pragma once
 
-#include "sample/line_samples.h"
 #include "sample/samples.h"
+#include "sample/track.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -35,6 +35,21 @@ struct LineInterval {
 };
 LineInterval interval_of(const Surface& surface, const Backbones& features, const Riders& riders, std::size_t b,
                          std::size_t i);
+
+/// How many intervals the riders of one backbone make.
+inline std::size_t interval_count(const Track& track, Span<const Rider> on) {
+  return track.closed ? on.count : on.count + 1;
+}
+
+/// From where to where interval i goes, in density along the track of its backbone. Interval 0 of a closed one begins
+/// before the track does, below 0.
+struct MassRange {
+  double from, to;
+};
+MassRange mass_of_interval(const Track& track, Span<const Rider> on, std::size_t i);
+
+/// Where so much density lies behind the beginning of the track; less than 0 counts back from its end.
+LineAnchor anchor_at_mass(const Backbones& features, const Track& track, double mass);
 
 }  // namespace v1
 }  // namespace isolod

@@ -1,7 +1,16 @@
 #include "sample/samples.h"
 
+#include "base/status.h"
+
 namespace isolod {
 inline namespace v1 {
+
+Status reserve(Samples& samples, std::size_t count, Arena& arena) {
+  ISOLOD_TRY(arena.result(count, samples.place));
+  ISOLOD_TRY(arena.result(count, samples.anchor));
+  ISOLOD_TRY(arena.result(count, samples.held));
+  return arena.result(count, samples.correction);
+}
 
 Vec3 position_of(const Surface& surface, const SurfacePlace& place) {
   const Halfedges& mesh = surface.mesh;

@@ -50,6 +50,9 @@ struct Samples {
   }
 };
 
+/// Takes room for `count` samples, 49 bytes each, as results; what they are is not set.
+Status reserve(Samples& samples, std::size_t count, Arena& arena);
+
 /// A sample is the vertex of the same number.
 inline VertexId vertex(SampleId s) { return {s.value}; }
 

@@ -13,17 +13,6 @@ using support::Soup;
 
 namespace {
 
-Soup tetrahedron() {
-  Soup soup;
-  for (std::uint32_t i = 0; i < 4; ++i) soup.vertex(i == 1, i == 2, i == 3);
-  soup.face(0, 2, 1), soup.face(0, 1, 3), soup.face(1, 2, 3), soup.face(2, 0, 3);
-  return soup;
-}
-
-Soup holed_grid() {
-  return support::grid_where(7, [](std::uint32_t i, std::uint32_t j) { return i % 4 != 2 || j % 4 != 2; });
-}
-
 const Soup& grid() {
   static const Soup soup = support::square_grid(6);
   return soup;
@@ -121,7 +110,7 @@ Skeleton skeleton(const Mesh& mesh) {
 }  // namespace
 
 TEST_CASE("collapse: every one keeps the mesh manifold, its topology and its lines, until none is left to do") {
-  const Soup starts[] = {tetrahedron(), support::torus(9, 7), support::square_grid(5), holed_grid()};
+  const Soup starts[] = {support::tetrahedron(), support::torus(9, 7), support::square_grid(5), support::holed_grid()};
   for (const Soup& start : starts) {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
       Mesh mesh(start);

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "support/plane_shapes.h"
+#include "support/meshed.h"
 
 using namespace isolod;
 
@@ -11,15 +11,7 @@ TEST_CASE("face_mass: six times the integral of a linear density, whether its co
   support::Piece piece(support::square_grid(1));
   piece.set_density([](Vec3 p) { return 1 + 2 * p.x + 4 * p.y; });
   const Halfedges& mesh = piece.surface.mesh;
-  Samples samples;
-  REQUIRE(piece.block.arena.result(4, samples.place).is_ok());
-  REQUIRE(piece.block.arena.result(4, samples.anchor).is_ok());
-  REQUIRE(piece.block.arena.result(4, samples.held).is_ok());
-  for (HalfedgeId h : Ids<HalfedgeId>(6)) {
-    const SampleId s{mesh.origin[h].value};
-    samples.place[s] = {face(h), h.value % 3 == 1 ? 1.0 : 0.0, h.value % 3 == 2 ? 1.0 : 0.0};
-    samples.anchor[s] = {h, 0};
-  }
+  Samples samples = support::samples_at_vertices(piece);
   for (const std::uint8_t held : {hold_none, hold_line}) {
     for (std::uint8_t& h : samples.held) h = held;
     double sum = 0;

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "support/plane_shapes.h"
+#include "support/meshed.h"
 
 using namespace isolod;
 
@@ -12,15 +12,7 @@ namespace {
 /// Two faces over a square, a free sample at each vertex; vertex 3 is lifted by `height`.
 struct Square {
   explicit Square(double height) : piece(soup(height)), mesh(piece.surface.mesh) {
-    REQUIRE(piece.block.arena.result(4, samples.place).is_ok());
-    REQUIRE(piece.block.arena.result(4, samples.anchor).is_ok());
-    REQUIRE(piece.block.arena.result(4, samples.held).is_ok());
-    for (HalfedgeId h : Ids<HalfedgeId>(6)) {
-      const SampleId s{mesh.origin[h].value};
-      samples.place[s] = {face(h), h.value % 3 == 1 ? 1.0 : 0.0, h.value % 3 == 2 ? 1.0 : 0.0};
-      samples.anchor[s] = {h, 0};
-      samples.held[s] = 0;
-    }
+    samples = support::samples_at_vertices(piece);
   }
   static support::Soup soup(double height) {
     support::Soup made;

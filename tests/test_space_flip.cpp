@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "support/plane_shapes.h"
+#include "support/meshed.h"
 
 using namespace isolod;
 
@@ -20,14 +20,7 @@ bool wants(double x, double depth, bool folded, bool fixed) {
   t.mesh = piece.surface.mesh;
   REQUIRE(piece.block.arena.result(6, t.fixed).is_ok());
   for (std::uint8_t& bits : t.fixed) bits = fixed;
-  Samples samples;  // one at each vertex, free: the place that is its corner
-  REQUIRE(piece.block.arena.result(4, samples.place).is_ok());
-  REQUIRE(piece.block.arena.result(4, samples.held).is_ok());
-  for (HalfedgeId h : Ids<HalfedgeId>(6)) {
-    const SampleId s{t.mesh.origin[h].value};
-    samples.place[s] = {face(h), h.value % 3 == 1 ? 1.0 : 0.0, h.value % 3 == 2 ? 1.0 : 0.0};
-    samples.held[s] = 0;
-  }
+  const Samples samples = support::samples_at_vertices(piece);
   const HalfedgeId edge = find_halfedge(t.mesh, VertexId{0}, VertexId{1});
   REQUIRE_FALSE(t.mesh.is_boundary(edge));
   return wants_flip_in_space(piece.surface, t, samples, edge);

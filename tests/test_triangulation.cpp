@@ -54,22 +54,11 @@ struct Editable {
   std::uint32_t added = 0;
 };
 
-Soup tetrahedron() {
-  Soup soup;
-  for (std::uint32_t i = 0; i < 4; ++i) soup.vertex(i == 1, i == 2, i == 3);
-  soup.face(0, 2, 1), soup.face(0, 1, 3), soup.face(1, 2, 3), soup.face(2, 0, 3);
-  return soup;
-}
-
-Soup holed_grid() {
-  return support::grid_where(7, [](std::uint32_t i, std::uint32_t j) { return i % 4 != 2 || j % 4 != 2; });
-}
-
 std::vector<Soup> starts() {
   Soup triangle;
   for (int i = 0; i < 3; ++i) triangle.vertex(i == 1, i == 2, 0);
   triangle.face(0, 1, 2);
-  return {tetrahedron(), support::torus(5, 4), support::square_grid(3), holed_grid(), triangle};
+  return {support::tetrahedron(), support::torus(5, 4), support::square_grid(3), support::holed_grid(), triangle};
 }
 
 /// One random operation, if it can be done here; `name` says which.
@@ -164,7 +153,7 @@ TEST_CASE("triangulation: a flip turns the edge a b into c d and two flips turn 
 }
 
 TEST_CASE("triangulation: boundary edges, fixed edges and edges of a tetrahedron cannot be flipped") {
-  Editable closed(tetrahedron(), 0);
+  Editable closed(support::tetrahedron(), 0);
   for (HalfedgeId h : Ids<HalfedgeId>(12)) CHECK_FALSE(can_flip(closed.t, h));
   Editable square(support::square_grid(1), 0);
   for (HalfedgeId h : Ids<HalfedgeId>(6)) CHECK(can_flip(square.t, h) == !square.t.mesh.is_boundary(h));
@@ -216,7 +205,7 @@ TEST_CASE("triangulation: a face is split and mended, on a boundary too, as if n
 }
 
 TEST_CASE("triangulation: a vertex that split an edge is taken out and the edge is whole again") {
-  for (const Soup& start : {support::torus(6, 5), support::square_grid(4), holed_grid()}) {
+  for (const Soup& start : {support::torus(6, 5), support::square_grid(4), support::holed_grid()}) {
     for (std::uint32_t i = 0; i < 60; ++i) {
       Editable mesh(start, 1);
       Triangulation& t = mesh.t;
@@ -246,7 +235,7 @@ TEST_CASE("triangulation: a vertex that split an edge is taken out and the edge 
 
 TEST_CASE("triangulation: compact closes gaps and keeps every triangle") {
   Random random(9);
-  Editable mesh(holed_grid(), 60);
+  Editable mesh(support::holed_grid(), 60);
   Triangulation& t = mesh.t;
   std::string name;
   for (int step = 0; step < 600; ++step) edit(mesh, random, name);

@@ -30,6 +30,19 @@ inline isolod::SurfacePlace locate(const isolod::Surface& surface, isolod::Vec3 
   return {};
 }
 
+/// A free sample at every vertex of a piece: its place is a corner of a face, its anchor one for tests that hold it.
+inline isolod::Samples samples_at_vertices(Piece& piece) {
+  const isolod::Halfedges& mesh = piece.surface.mesh;
+  isolod::Samples samples;
+  REQUIRE(reserve(samples, mesh.vertex_count(), piece.block.arena).is_ok());
+  for (isolod::HalfedgeId h : isolod::Ids<isolod::HalfedgeId>(mesh.halfedge_count())) {
+    const isolod::SampleId s{mesh.origin[h].value};
+    samples.put_free(s, {face(h), h.value % 3 == 1 ? 1.0 : 0.0, h.value % 3 == 2 ? 1.0 : 0.0});
+    samples.anchor[s] = {h, 0};
+  }
+  return samples;
+}
+
 /// Whether a place is within its face.
 inline bool is_inside(const isolod::Surface& surface, const isolod::SurfacePlace& p) {
   return p.face.value < surface.mesh.face_count() && p.weight1 >= 0 && p.weight2 >= 0 &&

@@ -45,6 +45,17 @@ Soup square_grid(std::uint32_t n, double side) {
   return grid_where(n, [](std::uint32_t, std::uint32_t) { return true; }).scaled(side);
 }
 
+Soup holed_grid() {
+  return grid_where(7, [](std::uint32_t i, std::uint32_t j) { return i % 4 != 2 || j % 4 != 2; });
+}
+
+Soup tetrahedron() {
+  Soup soup;
+  for (std::uint32_t i = 0; i < 4; ++i) soup.vertex(i == 1, i == 2, i == 3);
+  soup.face(0, 2, 1), soup.face(0, 1, 3), soup.face(1, 2, 3), soup.face(2, 0, 3);
+  return soup;
+}
+
 Soup bent(Soup soup, const std::function<Vec3(Vec3)>& way) {
   for (Vec3& p : soup.positions) p = way(p);
   return soup;

@@ -29,6 +29,10 @@ using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 Soup square_grid(std::uint32_t n, double side = 1);
 /// The same without the quads (column, row) that `has_quad` refuses; unused vertices stay away.
 Soup grid_where(std::uint32_t n, const std::function<bool(std::uint32_t, std::uint32_t)>& has_quad);
+/// 7 by 7 quads without four of them.
+Soup holed_grid();
+/// A corner at the origin, the others one along an axis each.
+Soup tetrahedron();
 /// Vertices moved by a function of their position.
 Soup bent(Soup soup, const std::function<isolod::Vec3(isolod::Vec3)>& way);
 /// All edges of the soup between two positions that belong together, for tags.

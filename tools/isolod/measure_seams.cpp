@@ -104,23 +104,26 @@ void find_chains(const Surface& s, const EdgeTable& table, const std::vector<Seg
 
 /// Both groups at once: `beside` the seams, and neither `hidden` by lines.
 void measure_groups(const Surface& s, const EdgeTable& table, const Band& beside, const Band& hidden, SeamFit& fit) {
-  std::array<std::vector<double>, 2> q, area;
+  std::array<std::vector<double>, 2> q, area;  // the rest, those near
   std::array<std::size_t, 2> six{};
+  const auto group_of = [](char is_near) { return is_near != 0 ? std::size_t{1} : std::size_t{0}; };
   std::vector<std::size_t> valence(s.vertex_count, 0);
   for (const Edge& e : table.edges) ++valence[e.a], ++valence[e.b];
   for (std::size_t t = 0; t < s.triangle_count; ++t) {
     const Corners c = corners(s, t);
-    if (hidden.triangle[t] == 0)
-      q[static_cast<std::size_t>(beside.triangle[t])].push_back(triangle_quality(&c[0].x, &c[1].x, &c[2].x));
+    if (hidden.triangle[t] == 0) {
+      q[group_of(beside.triangle[t])].push_back(triangle_quality(&c[0].x, &c[1].x, &c[2].x));
+    }
   }
   const std::vector<Cell> cells = clipped_cells(s, [](Vector) { return 1.0; });
   const std::vector<char> inner = inner_vertices(s, table);
   for (std::size_t v = 0; v < s.vertex_count; ++v) {
     if (hidden.vertex[v] != 0 || inner[v] == 0) continue;
-    area[static_cast<std::size_t>(beside.vertex[v])].push_back(cells[v].area);
-    six[static_cast<std::size_t>(beside.vertex[v])] += valence[v] == 6 ? 1 : 0;
+    const std::size_t group = group_of(beside.vertex[v]);
+    area[group].push_back(cells[v].area);
+    six[group] += valence[v] == 6 ? 1 : 0;
   }
-  const auto group = [&](std::size_t side) {
+  const auto found_in = [&](std::size_t side) {
     SeamGroup found;
     found.triangles = q[side].size();
     found.vertices = area[side].size();
@@ -129,8 +132,8 @@ void measure_groups(const Surface& s, const EdgeTable& table, const Band& beside
     found.cell_variation = spread(area[side]).variation;
     return found;
   };
-  fit.near = group(1);
-  fit.rest = group(0);
+  fit.near = found_in(1);
+  fit.rest = found_in(0);
 }
 
 }  // namespace

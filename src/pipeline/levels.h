@@ -31,8 +31,8 @@ LevelPlan plan_levels(const DensityIntegrals& integrals, std::uint32_t vertex_co
 struct LevelOptions {
   double line_rate = 0;  ///< R_f of the finest level
   LloydWeight weight = LloydWeight::equal;
-  std::uint32_t coarse_iterations = 160;
-  std::uint32_t fine_iterations = 30;
+  std::uint32_t coarse_iterations = 320;
+  std::uint32_t fine_iterations = 60;
   std::uint32_t only_iterations = 80;  ///< where there is one level alone
 };
 

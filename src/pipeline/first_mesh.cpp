@@ -13,7 +13,7 @@ namespace {
 
 using State = Remesher::State;
 
-constexpr std::uint32_t least_first_count = 2000;
+constexpr std::uint32_t least_first_count = 500;
 constexpr double refine_limit = 1.25;  // wished edge lengths
 
 std::uint64_t face_units(const State& s) { return s.surface.mesh.face_count(); }
@@ -95,7 +95,7 @@ std::uint32_t ample_count(const State& s, const DensityIntegrals& integrals) {
 /// Plans at most so many splits, and what the first mesh is made of.
 void plan_run(State& s, const DensityIntegrals& integrals, std::uint32_t most_splits) {
   const std::int64_t handles = std::int64_t{s.report.components} - integrals.euler_characteristic / 2;
-  const std::int64_t least = least_first_count + 60 * (s.report.components + handles);
+  const std::int64_t least = least_first_count + 30 * (s.report.components + handles);
   s.plan = plan_levels(integrals, s.options.vertex_count, most_splits, static_cast<std::uint32_t>(least));
   const std::uint32_t ample = ample_count(s, integrals);
   if (s.options.remove_seams && s.plan.first_count < ample) s.plan.first_count = ample;

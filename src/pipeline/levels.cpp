@@ -12,8 +12,9 @@ inline namespace v1 {
 namespace {
 
 constexpr std::uint32_t trial_iterations = 15;
-constexpr double most_bent = 0.002;    // of the samples of a first level that is to be split
-constexpr double most_folded = 0.002;  // of the faces of any level, where there is a finer one to start from
+constexpr double most_bent_first = 0.005;  // of the samples of a first level: a split straightens most of these
+constexpr double most_bent = 0.001;         // of those of a later one: what is still folded stays so
+constexpr double most_folded = 0.002;      // of the faces of the result, where there is a finer level to start from
 constexpr std::uint32_t cover_period = 5;
 constexpr std::uint32_t loop_period = 10;  // iterations from one closing of the loop to the next
 constexpr std::uint32_t quiet_end = 5;     // iterations of a level behind the last one
@@ -160,11 +161,16 @@ bool Levels::is_folded(const Surface& surface, const Halfedges& mesh, const Samp
   return static_cast<double>(folded) > most_folded * static_cast<double>(mesh.face_count());
 }
 
+/// Whether so many stars are folded up, after a few iterations, that a finer level should be the first.
+bool Levels::is_bent(const Samples& samples) const {
+  const double most = level_ == 0 ? most_bent_first : most_bent;
+  return relaxation_.report().bent > most * static_cast<double>(samples.count());
+}
+
 /// A piece of an iteration, and at its end what follows.
 void Levels::relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena) {
   if (!relaxation_.step()) return;
-  if (level_ == 0 && !is_finest() && iteration_ == trial_iterations &&
-      relaxation_.report().bent > most_bent * static_cast<double>(samples.count())) {
+  if (plan_.splits > 0 && iteration_ == trial_iterations && is_bent(samples)) {
     phase_ = Phase::unresolved;
     return;
   }
@@ -175,7 +181,7 @@ void Levels::relax(const Surface& surface, const Halfedges& mesh, const Samples&
   if (iteration_ < last) return;
   arena.rewind_scratch(scratch_);
   phase_ = is_finest() ? Phase::done : Phase::level_end;
-  if (plan_.splits > 0 && is_folded(surface, mesh, samples)) phase_ = Phase::unresolved;
+  if (plan_.splits > 0 && is_finest() && is_folded(surface, mesh, samples)) phase_ = Phase::unresolved;
 }
 
 Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {

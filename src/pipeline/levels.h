@@ -71,6 +71,7 @@ class Levels {
   Status match_lines(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   Status begin_thin(const Surface& surface, bool keep_lines, Triangulation& mesh, Samples& samples, Arena& arena);
   Status begin_split(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
+  bool is_bent(const Samples& samples) const;
   bool is_folded(const Surface& surface, const Halfedges& mesh, const Samples& samples) const;
   void relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena);
   bool is_finest() const { return level_ == plan_.splits; }

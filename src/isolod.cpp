@@ -93,6 +93,7 @@
 #include "relax/star_moves.cpp"
 #include "relax/thin_out.cpp"
 #include "relax/tiles.cpp"
+#include "relax/unfold.cpp"
 #include "relax/worst_faces.cpp"
 
 #include "pipeline/build_lods.cpp"

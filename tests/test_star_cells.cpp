@@ -1,4 +1,4 @@
-// Cells summed face by face: against areas, against polygons clipped by all bisectors, against numerical integrals.
+// Cells summed over stars: against areas, against polygons clipped by all bisectors, against numerical integrals.
 #include "relax/star_cells.h"
 
 #include <cmath>
@@ -18,10 +18,7 @@ constexpr double pi = 3.14159265358979323846;
 /// The cells of a mesh that is its own surface; `lines` are its fixed edges.
 struct Cells {
   explicit Cells(const Triangulation& t, std::vector<Site> sites, bool angles = true) : site(std::move(sites)) {
-    for (std::size_t i = 0; i < site.size(); ++i) cell.push_back({{0, 0, 0}, 0, 0, 0});
-    for (FaceId f : Ids<FaceId>(t.mesh.face_count())) {
-      add_face_to_cells(t, support::span_of(site), f, angles, support::span_of(cell));
-    }
+    for (VertexId v : Ids<VertexId>(site.size())) cell.push_back(star_at(t, support::span_of(site), v, angles).cell);
   }
   double mass() const {
     double sum = 0;

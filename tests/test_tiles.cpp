@@ -23,9 +23,8 @@ struct Tiled : Meshed {
   void sweep() {
     cell.assign(samples.count(), StarCell{{0, 0, 0}, 0, 0, 0});
     const Span<const std::uint8_t> is_bent{bent.data(), bent.size()};
-    for (FaceId f : Ids<FaceId>(faces)) {
-      tiles.settle(mesh, support::span_of(site), f, is_bent, support::span_of(cell));
-    }
+    for (FaceId f : Ids<FaceId>(faces)) tiles.settle(mesh, support::span_of(site), f);
+    for (FaceId f : Ids<FaceId>(faces)) tiles.gather(support::span_of(site), f, is_bent, support::span_of(cell));
   }
   Vec3 middle(FaceId f) const { return position_of(piece.surface, {f, 1.0 / 3, 1.0 / 3}); }
   double way_to(FaceId f, SampleId s) const { return distance(middle(f), site[s.value].position); }

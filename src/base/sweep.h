@@ -1,7 +1,8 @@
-// A linear pass that stops and goes on.
+// A linear pass that stops and goes on, on one thread or on the caller's.
 #pragma once
 
 #include "base/index.h"
+#include "base/parallel.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -19,6 +20,19 @@ class Sweep {
     for (; next_ < end; ++next_) visit(Id{static_cast<std::uint32_t>(next_)});
     if (next_ < count) return false;
     next_ = 0;
+    return true;
+  }
+
+  /// The same where no visit reads what another one writes: with threads there are all the elements are one piece of
+  /// work, spread over them.
+  template <class Id, class Visit>
+  bool over(const Parallel& parallel, std::size_t count, Visit visit) {
+    if (!parallel.has_threads()) return over<Id>(count, visit);
+    constexpr std::size_t range = 512;
+    parallel.run(static_cast<std::uint32_t>((count + range - 1) / range), [&](std::uint32_t piece) {
+      const std::size_t begin = piece * range, end = count - begin < range ? count : begin + range;
+      for (std::size_t i = begin; i < end; ++i) visit(Id{static_cast<std::uint32_t>(i)});
+    });
     return true;
   }
 

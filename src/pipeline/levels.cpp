@@ -4,6 +4,7 @@
 #include "relax/face_score.h"
 #include "relax/insert.h"
 #include "relax/line_counts.h"
+#include "relax/unfold.h"
 #include "result/feature_lines.h"
 
 namespace isolod {
@@ -12,9 +13,11 @@ inline namespace v1 {
 namespace {
 
 constexpr std::uint32_t trial_iterations = 15;
-constexpr double most_bent_first = 0.005;  // of the samples of a first level: a split straightens most of these
+constexpr double most_bent_first = 0.01;  // of the samples of a first level: a split straightens most of these
 constexpr double most_bent = 0.001;         // of those of a later one: what is still folded stays so
+constexpr double most_large = 0.0005;      // of the samples, at the end of any level
 constexpr double most_folded = 0.002;      // of the faces of the result, where there is a finer level to start from
+constexpr std::uint32_t unfold_period = 8;
 constexpr std::uint32_t cover_period = 5;
 constexpr std::uint32_t loop_period = 10;  // iterations from one closing of the loop to the next
 constexpr std::uint32_t quiet_end = 5;     // iterations of a level behind the last one
@@ -167,6 +170,17 @@ bool Levels::is_bent(const Samples& samples) const {
   return relaxation_.report().bent > most * static_cast<double>(samples.count());
 }
 
+/// Whether the mesh of a level has come off the shape somewhere, so that cells stay large there.
+bool Levels::has_slipped(const Samples& samples) const {
+  return relaxation_.report().large > most_large * static_cast<double>(samples.count());
+}
+
+/// Whether folds are to be taken out now: not so near to the end that what is put in has no time to settle.
+bool Levels::unfolds() const {
+  const bool is_time = iteration_ % unfold_period == 0 && iteration_ + unfold_period <= iterations(level_);
+  return is_time && relaxation_.report().bent > 0;
+}
+
 /// A piece of an iteration, and at its end what follows.
 void Levels::relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena) {
   if (!relaxation_.step()) return;
@@ -178,10 +192,13 @@ void Levels::relax(const Surface& surface, const Halfedges& mesh, const Samples&
   ++iteration_;
   if (iteration_ % loop_period == 0 && iteration_ + quiet_end <= last) relaxation_.close_loop_next();
   if (iteration_ % cover_period == cover_period - 1) relaxation_.cover_next();
+  if (unfolds()) phase_ = Phase::unfold;
   if (iteration_ < last) return;
   arena.rewind_scratch(scratch_);
   phase_ = is_finest() ? Phase::done : Phase::level_end;
-  if (plan_.splits > 0 && is_finest() && is_folded(surface, mesh, samples)) phase_ = Phase::unresolved;
+  if (plan_.splits > 0 && (has_slipped(samples) || (is_finest() && is_folded(surface, mesh, samples)))) {
+    phase_ = Phase::unresolved;
+  }
 }
 
 Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
@@ -210,6 +227,11 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
       phase_ = Phase::relax;
       iteration_ = 0;
       ISOLOD_TRY(right_faces(surface, mesh, samples, arena));
+      return relaxation_.begin(surface, features(), mesh, samples, relax_options(), arena);
+    case Phase::unfold:
+      phase_ = Phase::relax;
+      ISOLOD_TRY(unfold(surface, relaxation_.is_bent(), mesh, samples, arena));
+      arena.rewind_scratch(scratch_);
       return relaxation_.begin(surface, features(), mesh, samples, relax_options(), arena);
     case Phase::relax:
       relax(surface, mesh.mesh, samples, arena);

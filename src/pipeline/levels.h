@@ -61,6 +61,7 @@ class Levels {
     insert,
     begin_relax,
     relax,
+    unfold,
     level_end,
     begin_split,
     split,
@@ -72,6 +73,8 @@ class Levels {
   Status begin_thin(const Surface& surface, bool keep_lines, Triangulation& mesh, Samples& samples, Arena& arena);
   Status begin_split(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   bool is_bent(const Samples& samples) const;
+  bool has_slipped(const Samples& samples) const;
+  bool unfolds() const;
   bool is_folded(const Surface& surface, const Halfedges& mesh, const Samples& samples) const;
   void relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena);
   bool is_finest() const { return level_ == plan_.splits; }

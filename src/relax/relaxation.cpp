@@ -16,6 +16,7 @@ constexpr std::uint32_t most_halvings = 3;
 constexpr std::uint32_t flip_rounds = 2;
 constexpr double least_cosine = 0.1;      // between a face and its star, for it to count as not turned over
 constexpr double least_upright = 0.5;     // length of the sum of a star's area vectors over the sum of their lengths
+constexpr double large_cell = 1.8;        // times the mean mass
 constexpr double far_reach = 0.8;         // wished edge lengths; a regular cell reaches 0.58
 constexpr double pull = 0.3;              // of the way to what is far
 constexpr double longest_step = 0.25;     // wished edge lengths
@@ -49,6 +50,8 @@ Status Relaxation::begin(const Surface& surface, const Backbones* features, Tria
   ISOLOD_TRY(loop_.begin(mesh, samples, arena));
   ISOLOD_TRY(tiles_.begin(surface, samples, arena));
   ISOLOD_TRY(arena.scratch(samples.count(), is_bent_));
+  ISOLOD_TRY(arena.scratch(samples.count(), has_moved_));
+  ISOLOD_TRY(arena.scratch(mesh.mesh.halfedge_count(), wants_));
   ISOLOD_TRY(arena.scratch(samples.count(), site_));
   return arena.scratch(samples.count(), cell_);
 }
@@ -58,25 +61,9 @@ void Relaxation::look(SampleId s) {
   const double base = options_.weight == LloydWeight::equal ? d * d : d;
   const Vec3 normal = area_vector(*surface_, face_of(samples_, s));
   site_[s] = {position_of(*surface_, samples_, s), d, base * exponential(samples_.correction[s]), normal};
-  cell_[s] = {{0, 0, 0}, 0, 0, 0};
 }
 
 namespace {
-
-/// The area vectors of the faces around a vertex, doubled: their sum, and the sum of their lengths.
-struct StarNormal {
-  Vec3 sum{0, 0, 0};
-  double size = 0;
-
-  StarNormal(const Halfedges& mesh, Span<const Site> site, VertexId v) {
-    const Vec3 p = site[v].position;
-    visit_outgoing(mesh, v, [&](HalfedgeId h) {
-      const Vec3 n = cross(site[mesh.target(h)].position - p, site[mesh.apex(h)].position - p);
-      sum = sum + n;
-      size += length(n);
-    });
-  }
-};
 
 /// What is left of `way` in the plane across from `normal`.
 Vec3 flatten(Vec3 way, Vec3 normal) {
@@ -86,16 +73,25 @@ Vec3 flatten(Vec3 way, Vec3 normal) {
 
 }  // namespace
 
-/// The cell of a folded star begins anew: it comes from the surface.
-void Relaxation::look_for_bend(SampleId s) {
-  is_bent_[s] = 0;
-  if (samples_.held[s]) return;
-  const StarNormal star(mesh_->mesh, site_, vertex(s));
-  if (length(star.sum) >= least_upright * star.size) return;
-  is_bent_[s] = 1;
-  ++report_.bent;
+/// That of a folded star begins anew: it comes from the surface.
+void Relaxation::find_cell(SampleId s) {
+  const StarOfSample star = star_at(*mesh_, site_, vertex(s), closes_loop_);
+  cell_[s] = star.cell;
+  is_bent_[s] = !samples_.held[s] && length(star.normal) < least_upright * star.size;
+  if (!is_bent_[s]) return;
   cell_[s].moment = {0, 0, 0};
   cell_[s].weight = 0;
+}
+
+/// The sum of the area vectors of the faces around v, doubled.
+Vec3 Relaxation::normal_at(VertexId v) const {
+  const Halfedges& mesh = mesh_->mesh;
+  const Vec3 p = site_[v].position;
+  Vec3 sum{0, 0, 0};
+  visit_outgoing(mesh, v, [&](HalfedgeId h) {
+    sum = sum + cross(site_[mesh.target(h)].position - p, site_[mesh.apex(h)].position - p);
+  });
+  return sum;
 }
 
 /// Whether no more faces would be turned against the star, whose normal is given, than are now.
@@ -151,9 +147,7 @@ bool Relaxation::move_by(SampleId s, Vec3 normal, Vec3 way) {
   SurfacePlace place;
   if (!walk_straight(*surface_, samples_.place[s], way, place)) return false;
   const Vec3 there = position_of(*surface_, place);
-  if (!keeps_faces(vertex(s), normal, there) || !take_if_fair(s, [&] { samples_.place[s] = place; })) return false;
-  site_[s].position = there;
-  return true;
+  return keeps_faces(vertex(s), normal, there) && take_if_fair(s, [&] { samples_.place[s] = place; });
 }
 
 /// How far v may slide on its line at once.
@@ -186,9 +180,7 @@ bool Relaxation::slide_by(SampleId s, Vec3 normal, Vec3 way) {
   const double wished = dot(way, along) / size;
   const LineAnchor there = slide_along(*surface_, *features_, anchor, greater(-room, smaller(room, wished)));
   const Vec3 point = position_of(*surface_, there);
-  if (!keeps_faces(vertex(s), normal, point) || !take_if_fair(s, [&] { samples_.anchor[s] = there; })) return false;
-  site_[s].position = point;
-  return true;
+  return keeps_faces(vertex(s), normal, point) && take_if_fair(s, [&] { samples_.anchor[s] = there; });
 }
 
 /// How far the cell of a sample reaches, in wished edge lengths.
@@ -219,16 +211,13 @@ Vec3 Relaxation::shortened(SampleId s, Vec3 way) const {
 }
 
 void Relaxation::move(SampleId s) {
+  has_moved_[s] = 0;
   const bool slides = samples_.held[s] == hold_line;
   if (samples_.held[s] == hold_place || !(cell_[s].weight > 0)) return;
-  const Vec3 normal = StarNormal(mesh_->mesh, site_, vertex(s)).sum;
+  const Vec3 normal = normal_at(vertex(s));
   Vec3 way = shortened(s, step_of(s, normal));
-  for (std::uint32_t halving = 0; halving <= most_halvings; ++halving, way = 0.5 * way) {
-    if (halving == 1) ++report_.shortened;
-    if (slides ? slide_by(s, normal, way) : move_by(s, normal, way)) {
-      ++report_.moved;
-      return;
-    }
+  for (std::uint32_t halving = 0; halving <= most_halvings && !has_moved_[s]; ++halving, way = 0.5 * way) {
+    has_moved_[s] = slides ? slide_by(s, normal, way) : move_by(s, normal, way);
   }
 }
 
@@ -250,49 +239,86 @@ bool Relaxation::wants_flip(HalfedgeId h) const {
   return !gets_unfair(scores.before, scores.after);
 }
 
-void Relaxation::flip_edge(HalfedgeId h) {
+void Relaxation::look_at_edge(HalfedgeId h) {
   const HalfedgeId g = mesh_->mesh.twin[h];
-  if (g.is_none() || g < h || mesh_->is_fixed(h) || !wants_flip(h)) return;
+  wants_[h] = !g.is_none() && h < g && !mesh_->is_fixed(h) && wants_flip(h);
+}
+
+/// What was flipped before may have changed the wish.
+void Relaxation::flip_edge(HalfedgeId h) {
+  if (!wants_[h] || !wants_flip(h)) return;
   flip(*mesh_, h);
-  ++report_.flips;
+  ++flips_;
+}
+
+RelaxReport Relaxation::report() const {
+  RelaxReport report;
+  report.flips = flips_;
+  double mass = 0, count = 0;
+  for (SampleId s : Ids<SampleId>(samples_.count())) {
+    report.bent += is_bent_[s];
+    report.moved += has_moved_[s];
+    if (!samples_.held[s]) mass += cell_[s].mass, count += 1;
+  }
+  for (SampleId s : Ids<SampleId>(samples_.count())) {
+    report.large += !samples_.held[s] && cell_[s].mass * count > large_cell * mass;
+  }
+  return report;
+}
+
+void Relaxation::end_tiles() {
+  if (closes_loop_) loop_.start();
+  phase_ = closes_loop_ ? Phase::loop : Phase::moves;
+  closes_loop_ = false;
 }
 
 bool Relaxation::step() {
-  const Halfedges& mesh = mesh_->mesh;
+  const std::size_t count = samples_.count(), edges = mesh_->mesh.halfedge_count();
   switch (phase_) {
     case Phase::look:
-      if (!sweep_.over<SampleId>(samples_.count(), [&](SampleId s) { look(s); })) return false;
-      report_ = {};
+      if (!over<SampleId>(count, [&](SampleId s) { look(s); })) return false;
+      flips_ = 0;
       tiles_.clear_reach();
       phase_ = Phase::cells;
       return false;
-    case Phase::cells: {
-      const auto add = [&](FaceId f) { add_face_to_cells(*mesh_, site_, f, closes_loop_, cell_); };
-      if (!sweep_.over<FaceId>(mesh.face_count(), add)) return false;
-      phase_ = Phase::bends;
-      return false;
-    }
-    case Phase::bends:
-      if (!sweep_.over<SampleId>(samples_.count(), [&](SampleId s) { look_for_bend(s); })) return false;
-      phase_ = Phase::tiles;
+    case Phase::cells:
+      if (over<SampleId>(count, [&](SampleId s) { find_cell(s); })) phase_ = Phase::tiles;
       return false;
     case Phase::tiles: {
-      const auto settle_next = [&](SampleId i) { settle(i.value); };
-      if (covers_ && !sweep_.over<SampleId>(tiles_.sweep_count(), settle_next)) return false;
-      if (closes_loop_) loop_.start();
-      phase_ = closes_loop_ ? Phase::loop : Phase::moves;
-      closes_loop_ = false;
+      const auto settle = [&](SampleId i) { tiles_.settle(*mesh_, site_, tiles_.face(i.value)); };
+      if (!covers_) {
+        end_tiles();
+      } else if (over<SampleId>(tiles_.sweep_count(), settle)) phase_ = Phase::gather;
+      return false;
+    }
+    case Phase::gather: {
+      const auto gather = [&](SampleId i) { tiles_.gather(site_, tiles_.face(i.value), is_bent_, cell_); };
+      if (sweep_.over<SampleId>(tiles_.sweep_count(), gather)) end_tiles();
       return false;
     }
     case Phase::loop:
       loop_.step(cell_);
       if (loop_.done()) phase_ = Phase::moves;
       return false;
-    case Phase::moves:
-      if (sweep_.over<SampleId>(samples_.count(), [&](SampleId s) { move(s); })) phase_ = Phase::flips;
+    case Phase::moves: {
+      const auto move_next = [&](SampleId s) { move(s); };
+      // Faces are guarded by the places that others have come to.
+      if (!(options_.guards_faces ? sweep_.over<SampleId>(count, move_next) : over<SampleId>(count, move_next)))
+        return false;
+      phase_ = Phase::arrive;
+      return false;
+    }
+    case Phase::arrive:
+      if (over<SampleId>(count, [&](SampleId s) { site_[s].position = position_of(*surface_, samples_, s); })) {
+        phase_ = Phase::find_flips;
+      }
+      return false;
+    case Phase::find_flips:
+      if (over<HalfedgeId>(edges, [&](HalfedgeId h) { look_at_edge(h); })) phase_ = Phase::flips;
       return false;
     case Phase::flips:
-      if (!sweep_.over<HalfedgeId>(mesh.halfedge_count(), [&](HalfedgeId h) { flip_edge(h); })) return false;
+      if (!sweep_.over<HalfedgeId>(edges, [&](HalfedgeId h) { flip_edge(h); })) return false;
+      phase_ = Phase::find_flips;
       if (++round_ < flip_rounds) return false;
       round_ = 0;
       covers_ = false;
@@ -305,7 +331,7 @@ bool Relaxation::step() {
 RelaxReport Relaxation::iterate() {
   while (!step()) {
   }
-  return report_;
+  return report();
 }
 
 }  // namespace v1

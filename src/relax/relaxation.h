@@ -29,19 +29,20 @@ struct RelaxOptions {
   double line_rate = 0;  ///< R_f of this level: 1 / (R_f sqrt(d_s)) is the wished edge length
   /// For meshes too coarse for their shape: no move and no flip makes a face worse that is not fair (`face_score`).
   bool guards_faces = false;
+  Parallel parallel;
 };
 
 /// What one iteration came to.
 struct RelaxReport {
-  std::uint32_t moved = 0;
-  std::uint32_t shortened = 0;  ///< moves that were halved or dropped
+  std::uint32_t moved = 0;  ///< samples
   std::uint32_t flips = 0;
-  std::uint32_t bent = 0;  ///< samples whose stars are folded up
+  std::uint32_t bent = 0;   ///< samples whose stars are folded up
+  std::uint32_t large = 0;  ///< free samples whose cells have far more than the mean mass, as where the mesh slips off
 };
 
 class Relaxation {
  public:
-  /// `features` are the backbones of the surface without seams, or null where it has none. 122 bytes a sample
+  /// `features` are the backbones of the surface without seams, or null where it has none. 129 bytes a sample
   /// and 4 a face of the surface of scratch stay with the caller's scope.
   Status begin(const Surface& surface, const Backbones* features, Triangulation& mesh, const Samples& samples,
                const RelaxOptions& options, Arena& arena);
@@ -54,15 +55,21 @@ class Relaxation {
 
   /// A range of samples, faces or edges; true at the end of the iteration.
   bool step();
-  const RelaxReport& report() const { return report_; }  ///< of the iteration that ended last, or goes on
+  RelaxReport report() const;  ///< of the iteration that ended last
+  Span<const std::uint8_t> is_bent() const { return is_bent_; }  ///< per sample
   /// A whole iteration.
   RelaxReport iterate();
 
  private:
-  enum class Phase : std::uint8_t { look, cells, bends, tiles, loop, moves, flips };
+  enum class Phase : std::uint8_t { look, cells, tiles, gather, loop, moves, arrive, find_flips, flips };
+  template <class Id, class Visit>
+  bool over(std::size_t count, Visit visit) {
+    return sweep_.over<Id>(options_.parallel, count, visit);
+  }
   void look(SampleId s);
-  void look_for_bend(SampleId s);
-  void settle(std::uint32_t i) { tiles_.settle(*mesh_, site_, tiles_.face(i), is_bent_, cell_); }
+  void find_cell(SampleId s);
+  void end_tiles();
+  Vec3 normal_at(VertexId v) const;
   double reach_of(SampleId s) const;
   Vec3 pull_of(SampleId s) const;
   Vec3 step_of(SampleId s, Vec3 normal) const;
@@ -78,6 +85,7 @@ class Relaxation {
   double room_on_line(VertexId v) const;
   Vec3 way_to_even(VertexId v) const;
   bool wants_flip(HalfedgeId h) const;
+  void look_at_edge(HalfedgeId h);
   void flip_edge(HalfedgeId h);
 
   const Surface* surface_ = nullptr;
@@ -85,7 +93,7 @@ class Relaxation {
   Triangulation* mesh_ = nullptr;
   Samples samples_;
   RelaxOptions options_;
-  RelaxReport report_;
+  std::uint32_t flips_ = 0;  // of this iteration
   Phase phase_ = Phase::look;
   Sweep sweep_;
   std::uint32_t round_ = 0;  // of flips
@@ -93,7 +101,9 @@ class Relaxation {
   bool covers_ = false;
   MassLoop loop_;
   Tiles tiles_;
-  Span<std::uint8_t> is_bent_;  // per sample: its star is folded up
+  Span<std::uint8_t> is_bent_;    // per sample: its star is folded up
+  Span<std::uint8_t> has_moved_;  // per sample
+  Span<std::uint8_t> wants_;      // per halfedge: to be flipped, when it was last looked at
   Span<Site> site_;
   Span<StarCell> cell_;
 };

@@ -19,35 +19,40 @@ FacePoint between(std::uint32_t j, std::uint32_t k, double along) {
   return p;
 }
 
-/// A face with its corners counted on from one of them.
-class FaceParts {
+/// A face with its corners counted on from one of them, which is the one whose part is taken.
+class CornerOfFace {
  public:
-  FaceParts(const Triangulation& mesh, Span<const Site> site, FaceId f, Span<StarCell> cell) : cell_(cell) {
+  CornerOfFace(const Triangulation& mesh, Span<const Site> site, HalfedgeId h) {
+    const HalfedgeId side[3] = {h, next(h), prev(h)};
     for (std::uint32_t k = 0; k < 3; ++k) {
-      vertex_[k] = mesh.mesh.origin[halfedge(f, k)];
-      site_[k] = &site[vertex_[k]];
-      line_across_[k] = mesh.is_fixed(halfedge(f, (k + 1) % 3));
+      site_[k] = &site[mesh.mesh.origin[side[k]]];
+      line_across_[k] = mesh.is_fixed(side[(k + 1) % 3]);
     }
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const Vec3 p = site_[k]->position;
-      const Vec3 a = site_[(k + 1) % 3]->position - p, b = site_[(k + 2) % 3]->position - p;
-      cosine_[k] = dot(a, b);
-      side_[k] = a;
-      if (k == 0) twice_area_ = length(cross(a, b));
-    }
+    for (std::uint32_t k = 0; k < 3; ++k) side_[k] = site_[(k + 1) % 3]->position - site_[k]->position;
+    for (std::uint32_t k = 0; k < 3; ++k) cosine_[k] = -dot(side_[k], side_[(k + 2) % 3]);
+    area_vector_ = cross(side_[2], side_[0]);
+    twice_area_ = length(area_vector_);
   }
 
-  bool has_area() const { return twice_area_ > 0; }
+  /// Twice the face's area long.
+  Vec3 area_vector() const { return area_vector_; }
+  double twice_area() const { return twice_area_; }
+  double angle() const { return arc_tangent2(twice_area_, cosine_[0]); }
 
-  void add() {
+  void add_to(StarCell& cell) const {
+    const FacePoint middle_1 = between(0, 1, 0.5), middle_2 = between(0, 2, 0.5);
     for (std::uint32_t k = 0; k < 3; ++k) {
-      if (cosine_[k] < 0 && line_across_[k]) return add_beside_line(k);
+      if (!(cosine_[k] < 0 && line_across_[k])) continue;
+      // The angle at k is obtuse and the side across a line: the bisectors end on it.
+      if (k == 1) return add_part(middle_1, on_side_across(1, 0), cell);
+      if (k == 2) return add_part(on_side_across(2, 0), middle_2, cell);
+      add_part(middle_1, on_side_across(0, 1), cell);
+      add_part(on_side_across(0, 1), on_side_across(0, 2), cell);
+      return add_part(on_side_across(0, 2), middle_2, cell);
     }
-    add_about(circumcentre());
-  }
-
-  void add_angles() {
-    for (std::uint32_t k = 0; k < 3; ++k) cell_[vertex_[k]].angle += arc_tangent2(twice_area_, cosine_[k]);
+    const FacePoint centre = circumcentre();
+    add_part(middle_1, centre, cell);
+    add_part(centre, middle_2, cell);
   }
 
  private:
@@ -61,27 +66,11 @@ class FaceParts {
     return {{w[0] / sum, w[1] / sum, w[2] / sum}};
   }
 
-  /// The three kites between a corner, the middles of its sides and the centre.
-  void add_about(const FacePoint& centre) {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t j = (k + 1) % 3, l = (k + 2) % 3;
-      add_part(k, between(k, j, 0.5), centre);
-      add_part(k, centre, between(k, l, 0.5));
-    }
-  }
-
-  /// The angle at k is obtuse and the side across a line: the bisectors end on it.
-  void add_beside_line(std::uint32_t k) {
-    const std::uint32_t j = (k + 1) % 3, l = (k + 2) % 3;
-    const double square_kj = dot(side_[k], side_[k]), square_lk = dot(side_[l], side_[l]);
-    const FacePoint on_j = between(j, l, square_kj / (2 * cosine_[j])),
-                    on_l = between(l, j, square_lk / (2 * cosine_[l]));
-    const FacePoint middle_j = between(k, j, 0.5), middle_l = between(k, l, 0.5);
-    add_part(j, on_j, middle_j);
-    add_part(k, middle_j, on_j);
-    add_part(k, on_j, on_l);
-    add_part(k, on_l, middle_l);
-    add_part(l, middle_l, on_l);
+  /// Where the bisector of the side from k to j meets the side across from k.
+  FacePoint on_side_across(std::uint32_t k, std::uint32_t j) const {
+    const std::uint32_t l = 3 - k - j;
+    const Vec3 to_j = (k + 1) % 3 == j ? side_[k] : side_[j];
+    return between(j, l, dot(to_j, to_j) / (2 * cosine_[j]));
   }
 
   /// Linear over the face; beyond it within the range of the corners.
@@ -92,36 +81,38 @@ class FaceParts {
   double weight_at(const FacePoint& p) const { return at(p, site_[0]->weight, site_[1]->weight, site_[2]->weight); }
   double density_at(const FacePoint& p) const { return at(p, site_[0]->density, site_[1]->density, site_[2]->density); }
 
-  /// The triangle from corner k over b to c, counterclockwise, for corner k.
-  void add_part(std::uint32_t k, const FacePoint& b, const FacePoint& c) {
-    const std::uint32_t j = (k + 1) % 3, l = (k + 2) % 3;
-    const double area = 0.5 * twice_area_ * (b.w[j] * c.w[l] - b.w[l] * c.w[j]);
-    const double weight_b = weight_at(b), weight_c = weight_at(c), total = site_[k]->weight + weight_b + weight_c;
-    const Vec3 to_j = side_[k], to_l = -1.0 * side_[l];
-    const double along_j = (total + weight_b) * b.w[j] + (total + weight_c) * c.w[j];
-    const double along_l = (total + weight_b) * b.w[l] + (total + weight_c) * c.w[l];
-    StarCell& cell = cell_[vertex_[k]];
+  /// The triangle from the corner over b to c, counterclockwise.
+  void add_part(const FacePoint& b, const FacePoint& c, StarCell& cell) const {
+    const double area = 0.5 * twice_area_ * (b.w[1] * c.w[2] - b.w[2] * c.w[1]);
+    const double weight_b = weight_at(b), weight_c = weight_at(c), total = site_[0]->weight + weight_b + weight_c;
+    const double along_1 = (total + weight_b) * b.w[1] + (total + weight_c) * c.w[1];
+    const double along_2 = (total + weight_b) * b.w[2] + (total + weight_c) * c.w[2];
     cell.weight += area * total / 3;
-    cell.moment = cell.moment + area / 12 * (along_j * to_j + along_l * to_l);
-    cell.mass += area * (site_[k]->density + density_at(b) + density_at(c)) / 3;
+    cell.moment = cell.moment + area / 12 * (along_1 * side_[0] - along_2 * side_[2]);
+    cell.mass += area * (site_[0]->density + density_at(b) + density_at(c)) / 3;
   }
 
-  Span<StarCell> cell_;
-  VertexId vertex_[3];
   const Site* site_[3];
   bool line_across_[3];  // the side across from corner k is a line
   double cosine_[3];     // times both sides at corner k
   Vec3 side_[3];         // from corner k to the next
-  double twice_area_ = 0;
+  Vec3 area_vector_;
+  double twice_area_;
 };
 
 }  // namespace
 
-void add_face_to_cells(const Triangulation& mesh, Span<const Site> site, FaceId f, bool angles, Span<StarCell> cell) {
-  FaceParts parts(mesh, site, f, cell);
-  if (!parts.has_area()) return;
-  parts.add();
-  if (angles) parts.add_angles();
+StarOfSample star_at(const Triangulation& mesh, Span<const Site> site, VertexId v, bool angles) {
+  StarOfSample star{{{0, 0, 0}, 0, 0, 0}, {0, 0, 0}, 0};
+  visit_outgoing(mesh.mesh, v, [&](HalfedgeId h) {
+    const CornerOfFace corner(mesh, site, h);
+    if (!(corner.twice_area() > 0)) return;
+    corner.add_to(star.cell);
+    if (angles) star.cell.angle += corner.angle();
+    star.normal = star.normal + corner.area_vector();
+    star.size += corner.twice_area();
+  });
+  return star;
 }
 
 }  // namespace v1

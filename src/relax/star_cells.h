@@ -1,8 +1,8 @@
-// The bounded Voronoi cells of all samples, face by face, in the faces themselves.
+// The bounded Voronoi cell of a sample, in the faces around it.
 //
 // The chart of a sample is its star. Nothing has to be laid flat for its cell: every face of the mesh lies in a plane
 // already, the perpendicular bisectors of its sides cut it into the parts that belong to its three corners, and mass
-// and first moment of a cell are the sums over those parts. The parts are signed where a circumcentre lies outside its
+// and first moment of a cell are the sums over the parts of its sample. The parts are signed where a circumcentre lies outside its
 // face, so that a cell reaches over an edge into the next face as far as it would if both lay in one plane; a feature
 // edge is not reached over (paper, section 4.4; blind triangles: Tournois, Alliez and Devillers 2010).
 #pragma once
@@ -30,9 +30,15 @@ struct StarCell {
   double angle;   ///< around the sample, in radians
 };
 
-/// Adds the parts of face f to the cells of its corners. Weight and density are linear over the face. With `angles` the
-/// angles too, which cost more than all the rest.
-void add_face_to_cells(const Triangulation& mesh, Span<const Site> site, FaceId f, bool angles, Span<StarCell> cell);
+struct StarOfSample {
+  StarCell cell;
+  Vec3 normal;  ///< sum of the area vectors of the faces, each twice its area long
+  double size;  ///< sum of their lengths: that of the normal where the star is flat
+};
+
+/// The star of v and its cell. Weight and density are linear over each face. With `angles` the angle too, which costs
+/// more than all the rest.
+StarOfSample star_at(const Triangulation& mesh, Span<const Site> site, VertexId v, bool angles);
 
 }  // namespace v1
 }  // namespace isolod

@@ -32,40 +32,54 @@ Status Tiles::begin(const Surface& surface, const Samples& samples, Arena& arena
   return {};
 }
 
-void Tiles::settle(const Triangulation& mesh, Span<const Site> site, FaceId f, Span<const std::uint8_t> is_bent,
-                   Span<StarCell> cell) {
-  constexpr std::uint32_t most_steps = 2;
-  SampleId best = owner_[f];
-  if (best.is_none()) return;
+Tiles::Tile Tiles::tile(FaceId f) const {
   Vec3 corner[3];
   double density = 0;
   for (std::uint32_t k = 0; k < 3; ++k) {
     corner[k] = surface_->position(surface_->mesh.origin[halfedge(f, k)]);
     density += surface_->density(halfedge(f, k)) / 3;
   }
-  const Vec3 middle = (1.0 / 3) * (corner[0] + corner[1] + corner[2]);
-  const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
-  const auto far = [&](SampleId s) {
-    const Vec3 way = middle - site[s].position;
-    const bool other_side = dot(normal, site[s].normal) < 0;
-    return dot(way, way) * (other_side ? 4 : 1);
-  };
-  double least = far(best);
+  return {(1.0 / 3) * (corner[0] + corner[1] + corner[2]), cross(corner[1] - corner[0], corner[2] - corner[0]), density};
+}
+
+namespace {
+
+/// The square of the distance from a tile to a site, that to the other side of a sheet counted double.
+double far(Vec3 middle, Vec3 normal, const Site& site) {
+  const Vec3 way = middle - site.position;
+  return dot(way, way) * (dot(normal, site.normal) < 0 ? 4 : 1);
+}
+
+}  // namespace
+
+void Tiles::settle(const Triangulation& mesh, Span<const Site> site, FaceId f) {
+  constexpr std::uint32_t most_steps = 2;
+  SampleId best = owner_[f];
+  if (best.is_none()) return;
+  const Tile t = tile(f);
+  double least = far(t.middle, t.normal, site[best]);
   for (std::uint32_t step = 0; step < most_steps; ++step) {
     const SampleId from = best;
     visit_outgoing(mesh.mesh, vertex(from), [&](HalfedgeId h) {
       const SampleId other{mesh.mesh.target(h).value};
-      const double d = far(other);
+      const double d = far(t.middle, t.normal, site[other]);
       if (d < least) best = other, least = d;
     });
     if (best == from) break;
   }
   owner_[f] = best;
-  if (least > reach_[best].squared) reach_[best] = {f, least};
-  if (!is_bent[best]) return;
-  const double area = 0.5 * length(normal), weight = area * density * density;
-  cell[best].weight += weight;
-  cell[best].moment = cell[best].moment + weight * (middle - site[best].position);
+}
+
+void Tiles::gather(Span<const Site> site, FaceId f, Span<const std::uint8_t> is_bent, Span<StarCell> cell) {
+  const SampleId s = owner_[f];
+  if (s.is_none()) return;
+  const Tile t = tile(f);
+  const double squared = far(t.middle, t.normal, site[s]);
+  if (squared > reach_[s].squared) reach_[s] = {f, squared};
+  if (!is_bent[s]) return;
+  const double area = 0.5 * length(t.normal), weight = area * t.density * t.density;
+  cell[s].weight += weight;
+  cell[s].moment = cell[s].moment + weight * (t.middle - site[s].position);
 }
 
 }  // namespace v1

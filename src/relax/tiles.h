@@ -22,12 +22,12 @@ class Tiles {
   /// surface of scratch stay with the caller's scope, 4 more are given back.
   Status begin(const Surface& surface, const Samples& samples, Arena& arena);
 
-  /// Looks for a nearer sample for face f among the neighbours of the one that it belongs to, and adds it to the cell
-  /// of that sample where `is_bent` says so.
-  void settle(const Triangulation& mesh, Span<const Site> site, FaceId f, Span<const std::uint8_t> is_bent,
-              Span<StarCell> cell);
+  /// Looks for a nearer sample for face f among the neighbours of the one that it belongs to.
+  void settle(const Triangulation& mesh, Span<const Site> site, FaceId f);
+  /// Adds face f to the reach of its sample, and to the cell of that where `is_bent` says so.
+  void gather(Span<const Site> site, FaceId f, Span<const std::uint8_t> is_bent, Span<StarCell> cell);
 
-  /// How many faces a sweep settles: some two dozen a sample at most, `face(i)` the i-th of them.
+  /// How many faces a sweep visits: some two dozen a sample at most, `face(i)` the i-th of them.
   std::size_t sweep_count() const { return (owner_.count + stride_ - 1) / stride_; }
   FaceId face(std::uint32_t i) const { return {i * stride_}; }
 
@@ -44,6 +44,12 @@ class Tiles {
   const Reach& reach(SampleId s) const { return reach_[s]; }
 
  private:
+  struct Tile {
+    Vec3 middle, normal;  // the normal twice its area long
+    double density;
+  };
+  Tile tile(FaceId f) const;
+
   const Surface* surface_ = nullptr;
   std::uint32_t stride_ = 1;
   Span<Reach> reach_;     // per sample

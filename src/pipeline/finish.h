@@ -15,6 +15,7 @@ struct FinishOptions {
   bool improves = true;  ///< the worst faces
   bool fits = false;     ///< vertices leave the surface where that lessens the distance
   WorstFacesOptions worst;
+  const Backbones* features = nullptr;  ///< those of the surface without seams, if any; they must stay until done
 };
 
 /// A stage: begin, step until done.

@@ -13,7 +13,8 @@ namespace {
 
 using State = Remesher::State;
 
-constexpr std::uint32_t least_first_count = 500;
+/// Lines are sampled anew at each level, and what is beside them keeps little of the level before.
+constexpr std::uint32_t least_first_count = 500, least_first_with_lines = 2000;
 constexpr double refine_limit = 1.25;  // wished edge lengths
 
 std::uint64_t face_units(const State& s) { return s.surface.mesh.face_count(); }
@@ -94,8 +95,10 @@ std::uint32_t ample_count(const State& s, const DensityIntegrals& integrals) {
 
 /// Plans at most so many splits, and what the first mesh is made of.
 void plan_run(State& s, const DensityIntegrals& integrals, std::uint32_t most_splits) {
-  const std::int64_t handles = std::int64_t{s.report.components} - integrals.euler_characteristic / 2;
-  const std::int64_t least = least_first_count + 30 * (s.report.components + handles);
+  const std::int64_t handles =
+      std::int64_t{s.report.components} - (integrals.euler_characteristic + s.report.boundary_loops) / 2;
+  const std::int64_t least =
+      (integrals.lines > 0 ? least_first_with_lines : least_first_count) + 30 * (s.report.components + handles);
   s.plan = plan_levels(integrals, s.options.vertex_count, most_splits, static_cast<std::uint32_t>(least));
   const std::uint32_t ample = ample_count(s, integrals);
   if (s.options.remove_seams && s.plan.first_count < ample) s.plan.first_count = ample;
@@ -390,7 +393,10 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
 
 Status step_lift(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
-  if (!s.stage_begun) s.finish.begin({s.options.remove_seams, s.options.fit, polish_options(s)});
+  if (!s.stage_begun) {
+    const Backbones* features = s.options.remove_seams ? s.levels.features() : nullptr;
+    s.finish.begin({s.options.remove_seams, s.options.fit, polish_options(s), features});
+  }
   ISOLOD_TRY(s.finish.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
   done = s.finish.done();
   return {};

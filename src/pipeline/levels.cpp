@@ -12,15 +12,19 @@ inline namespace v1 {
 
 namespace {
 
+constexpr double most_on_lines = 0.37;  // of a first level's samples, where there is a finer one
 constexpr std::uint32_t trial_iterations = 15;
 constexpr double most_bent_first = 0.01;  // of the samples of a first level: a split straightens most of these
-constexpr double most_bent = 0.001;         // of those of a later one: what is still folded stays so
-constexpr double most_large = 0.0005;      // of the samples, at the end of any level
-constexpr double most_folded = 0.002;      // of the faces of the result, where there is a finer level to start from
-constexpr std::uint32_t unfold_period = 8;
+constexpr double most_bent = 0.001;       // of those of a later one: what is still folded stays so
+constexpr double most_large = 0.0005;     // of the samples, at the end of any level
+constexpr double most_folded = 0.002;     // of the faces of the result, where there is a finer level to start from
+constexpr std::uint32_t unfold_period = 16;
 constexpr std::uint32_t cover_period = 5;
 constexpr std::uint32_t loop_period = 10;  // iterations from one closing of the loop to the next
 constexpr std::uint32_t quiet_end = 5;     // iterations of a level behind the last one
+
+/// Iterations of the last level besides: as many as its share of samples on lines, and no more than `most_for_lines`.
+constexpr std::size_t for_all_on_lines = 640, most_for_lines = 160;
 
 /// V by the calibration that counts triangles, for a line rate.
 double count_at(const DensityIntegrals& integrals, double line_rate) {
@@ -38,7 +42,7 @@ LevelPlan plan_levels(const DensityIntegrals& integrals, std::uint32_t vertex_co
   for (std::uint32_t splits = 1; splits <= most_splits; ++splits) {
     const double rate = 0.5 * first_rate, count = count_at(integrals, rate);
     const double on_lines = rate * integrals.lines + static_cast<double>(integrals.corner_count);
-    if (count < static_cast<double>(least_first) || 3 * on_lines > count) break;
+    if (count < static_cast<double>(least_first) || on_lines > most_on_lines * count) break;
     first_rate = rate;
     plan.splits = splits;
   }
@@ -54,7 +58,7 @@ LevelPlan plan_levels(const DensityIntegrals& integrals, std::uint32_t vertex_co
 void Levels::begin(const LevelPlan& plan, const LevelOptions& options) {
   plan_ = plan;
   options_ = options;
-  level_ = iteration_ = 0;
+  level_ = iteration_ = more_iterations_ = 0;
   phase_ = Phase::features;
 }
 
@@ -69,9 +73,18 @@ double Levels::share_done() const {
   return before / whole;
 }
 
+/// Lines are sampled anew, not split: beside them nothing is left of the coarse level's order.
+std::uint32_t Levels::iterations_for_lines(const Samples& samples) const {
+  std::size_t on_lines = 0;
+  for (std::uint8_t held : samples.held) on_lines += held != hold_none;
+  const std::size_t more = for_all_on_lines * on_lines / samples.count();
+  return static_cast<std::uint32_t>(more < most_for_lines ? more : most_for_lines);
+}
+
 std::uint32_t Levels::iterations(std::uint32_t level) const {
   if (level < plan_.splits) return options_.coarse_iterations;
-  return plan_.splits == 0 ? options_.only_iterations : options_.fine_iterations;
+  const std::uint32_t more = level == level_ ? more_iterations_ : 0;
+  return more + (plan_.splits == 0 ? options_.only_iterations : options_.fine_iterations);
 }
 
 double Levels::line_rate(std::uint32_t level) const {
@@ -84,7 +97,7 @@ RelaxOptions Levels::relax_options() const {
   RelaxOptions options;
   options.weight = options_.weight;
   options.line_rate = line_rate(level_);
-  options.guards_faces = plan_.first_count > plan_.count[0];
+  options.guards_faces = is_thinned();
   return options;
 }
 
@@ -175,10 +188,11 @@ bool Levels::has_slipped(const Samples& samples) const {
   return relaxation_.report().large > most_large * static_cast<double>(samples.count());
 }
 
-/// Whether folds are to be taken out now: not so near to the end that what is put in has no time to settle.
+/// Whether folds are to be taken out now: not so near to the end that what is put in has no time to settle, and not
+/// where a few samples stand for a whole shape and all are folded.
 bool Levels::unfolds() const {
-  const bool is_time = iteration_ % unfold_period == 0 && iteration_ + unfold_period <= iterations(level_);
-  return is_time && relaxation_.report().bent > 0;
+  const bool is_time = iteration_ % unfold_period == 0 && iteration_ + quiet_end <= iterations(level_);
+  return is_time && !is_thinned() && relaxation_.report().bent > 0;
 }
 
 /// A piece of an iteration, and at its end what follows.
@@ -226,6 +240,7 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
     case Phase::begin_relax:
       phase_ = Phase::relax;
       iteration_ = 0;
+      more_iterations_ = is_finest() ? iterations_for_lines(samples) : 0;
       ISOLOD_TRY(right_faces(surface, mesh, samples, arena));
       return relaxation_.begin(surface, features(), mesh, samples, relax_options(), arena);
     case Phase::unfold:

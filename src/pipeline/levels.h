@@ -23,7 +23,7 @@ struct LevelPlan {
   std::uint32_t first_count = 0;  ///< of the first mesh: as many as level 0, or more, which are then thinned out
 };
 
-/// As many splits, up to `most_splits`, as leave the first level at least `least_first` samples, a third of them at
+/// As many splits, up to `most_splits`, as leave the first level at least `least_first` samples, 37 % of them at
 /// most on lines. Each level wishes for edges twice as long as the next.
 LevelPlan plan_levels(const DensityIntegrals& integrals, std::uint32_t vertex_count, std::uint32_t most_splits,
                       std::uint32_t least_first);
@@ -77,8 +77,10 @@ class Levels {
   bool unfolds() const;
   bool is_folded(const Surface& surface, const Halfedges& mesh, const Samples& samples) const;
   void relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena);
+  bool is_thinned() const { return plan_.first_count > plan_.count[0]; }
   bool is_finest() const { return level_ == plan_.splits; }
   std::uint32_t iterations(std::uint32_t level) const;
+  std::uint32_t iterations_for_lines(const Samples& samples) const;
   double line_rate(std::uint32_t level) const;
   Status right_faces(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) const;
   RelaxOptions relax_options() const;
@@ -87,6 +89,7 @@ class Levels {
   LevelOptions options_;
   Phase phase_ = Phase::done;
   std::uint32_t level_ = 0, iteration_ = 0;
+  std::uint32_t more_iterations_ = 0;  // for the lines
   Backbones features_;
   ThinOut thin_out_;
   bool thins_surface_ = false;  // and not the lines

@@ -13,9 +13,7 @@ constexpr double most_correction = 1.0;
 constexpr std::uint32_t rings = 6;
 constexpr double whole_turn = 6.283185307179586;
 
-bool is_counted(const Samples& samples, SampleId s, const StarCell& cell) {
-  return !samples.held[s] && cell.mass > 0 && cell.angle > 0;
-}
+bool is_counted(const StarCell& cell) { return cell.mass > 0 && cell.angle > 0; }
 
 }  // namespace
 
@@ -29,30 +27,36 @@ Status MassLoop::begin(const Triangulation& mesh, const Samples& samples, Arena&
 }
 
 /// The mean mass is the unit of all: the logarithm of a bare mass would depend on the scale in its last bits.
-void MassLoop::add_mass(SampleId s, const StarCell& cell) {
-  if (!is_counted(samples_, s, cell)) return;
+void MassLoop::add_mass(const StarCell& cell) {
+  if (!is_counted(cell)) return;
   mass_ += cell.mass;
   count_ += 1;
 }
 
 /// Up to the mean, which is taken off at the end.
-double MassLoop::error_of(SampleId s, const StarCell& cell) {
-  if (!is_counted(samples_, s, cell)) return 0;
+double MassLoop::error_of(const StarCell& cell) {
+  if (!is_counted(cell)) return 0;
   const double error = logarithm(cell.mass / (mass_ / count_) * whole_turn / cell.angle);
   sum_ += error;
   return error;
 }
 
-/// Half its own error, half the mean over its ring.
+/// Half its own error, half the mean over its ring: on the surface over those that are free, on a line along it.
 double MassLoop::average_around(SampleId s) const {
-  if (samples_.held[s]) return 0;
   double sum = error_[s], count = 1;
-  visit_outgoing(mesh_->mesh, VertexId{s.value}, [&](HalfedgeId h) {
-    const SampleId other{mesh_->mesh.target(h).value};
-    if (samples_.held[other]) return;
+  const auto add = [&](VertexId v) {
+    const SampleId other{v.value};
     sum += error_[other];
     count += 1;
-  });
+  };
+  if (samples_.held[s]) {
+    visit_line_neighbours(*mesh_, vertex(s), add);
+  } else {
+    visit_outgoing(mesh_->mesh, vertex(s), [&](HalfedgeId h) {
+      const VertexId v = mesh_->mesh.target(h);
+      if (!samples_.held[SampleId{v.value}]) add(v);
+    });
+  }
   return 0.5 * (error_[s] + sum / count);
 }
 
@@ -60,15 +64,15 @@ void MassLoop::step(Span<const StarCell> cell) {
   const std::size_t count = samples_.count();
   switch (phase_) {
     case Phase::masses:
-      if (sweep_.over<SampleId>(count, [&](SampleId s) { add_mass(s, cell[s]); })) phase_ = Phase::errors;
+      if (sweep_.over<SampleId>(count, [&](SampleId s) { add_mass(cell[s]); })) phase_ = Phase::errors;
       return;
     case Phase::errors:
-      if (!sweep_.over<SampleId>(count, [&](SampleId s) { error_[s] = error_of(s, cell[s]); })) return;
+      if (!sweep_.over<SampleId>(count, [&](SampleId s) { error_[s] = error_of(cell[s]); })) return;
       phase_ = Phase::fill;
       return;
     case Phase::fill: {
       const auto fill = [&](SampleId s) {
-        if (!is_counted(samples_, s, cell[s])) error_[s] = mean();
+        if (!is_counted(cell[s])) error_[s] = mean();
       };
       if (sweep_.over<SampleId>(count, fill)) phase_ = Phase::average;
       return;
@@ -83,7 +87,6 @@ void MassLoop::step(Span<const StarCell> cell) {
     }
     case Phase::correct: {
       const auto correct = [&](SampleId s) {
-        if (samples_.held[s]) return;
         const double c = samples_.correction[s] + loop_gain * (error_[s] - mean());
         samples_.correction[s] = greater(-most_correction, smaller(most_correction, c));
       };

@@ -23,15 +23,6 @@ constexpr double longest_step = 0.25;     // wished edge lengths
 constexpr double most_of_interval = 0.3;  // that a sample slides at once
 constexpr double evening = 0.7;           // part of a slide that evens out the intervals of the line
 
-/// Those at the other ends of the two edges of v's line.
-template <class Visit>
-void visit_line_neighbours(const Triangulation& mesh, VertexId v, Visit visit) {
-  visit_outgoing(mesh.mesh, v, [&](HalfedgeId h) {
-    if (mesh.is_fixed(h)) visit(mesh.mesh.target(h));
-    if (mesh.mesh.is_boundary(prev(h)) && mesh.is_fixed(prev(h))) visit(mesh.mesh.apex(h));
-  });
-}
-
 bool gets_unfair(double before, double after) { return after < fair_score && after < before; }
 
 }  // namespace
@@ -288,7 +279,8 @@ bool Relaxation::step() {
       const auto settle = [&](SampleId i) { tiles_.settle(*mesh_, site_, tiles_.face(i.value)); };
       if (!covers_) {
         end_tiles();
-      } else if (over<SampleId>(tiles_.sweep_count(), settle)) phase_ = Phase::gather;
+      } else if (over<SampleId>(tiles_.sweep_count(), settle))
+        phase_ = Phase::gather;
       return false;
     }
     case Phase::gather: {

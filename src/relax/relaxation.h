@@ -55,7 +55,7 @@ class Relaxation {
 
   /// A range of samples, faces or edges; true at the end of the iteration.
   bool step();
-  RelaxReport report() const;  ///< of the iteration that ended last
+  RelaxReport report() const;                                    ///< of the iteration that ended last
   Span<const std::uint8_t> is_bent() const { return is_bent_; }  ///< per sample
   /// A whole iteration.
   RelaxReport iterate();

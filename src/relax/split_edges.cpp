@@ -58,6 +58,7 @@ Status SplitEdges::place_on_lines(const Backbones& features, Arena& arena) {
       if (h.is_none()) return fail(Status::invalid_result, Element::vertex, ends.from.value);
       const MassRange range = mass_of_interval(track, on, i);
       samples_->put_on_line(middle_[h], anchor_at_mass(features, track, 0.5 * (range.from + range.to)));
+      samples_->correction[middle_[h]] = 0.5 * (old_.correction[ends.from] + old_.correction[ends.to]);
     }
   }
   return {};

@@ -2,9 +2,9 @@
 //
 // The chart of a sample is its star. Nothing has to be laid flat for its cell: every face of the mesh lies in a plane
 // already, the perpendicular bisectors of its sides cut it into the parts that belong to its three corners, and mass
-// and first moment of a cell are the sums over the parts of its sample. The parts are signed where a circumcentre lies outside its
-// face, so that a cell reaches over an edge into the next face as far as it would if both lay in one plane; a feature
-// edge is not reached over (paper, section 4.4; blind triangles: Tournois, Alliez and Devillers 2010).
+// and first moment of a cell are the sums over the parts of its sample. The parts are signed where a circumcentre lies
+// outside its face, so that a cell reaches over an edge into the next face as far as it would if both lay in one plane;
+// a feature edge is not reached over (paper, section 4.4; blind triangles: Tournois, Alliez and Devillers 2010).
 #pragma once
 
 #include "base/sweep.h"

@@ -181,6 +181,7 @@ bool StarMoves::move(VertexId v) {
   const std::uint8_t held = samples_->held[v];
   if (held == hold_place || (held == hold_line && features_ == nullptr)) return false;
   double best = star_score(v);
+  if (held && !(best < slides_below)) return false;
   const bool is_folded = !(best > 0);
   double reach = (is_folded && !held ? 1 : 0.2) * mean_edge(v);
   bool moved = false;

@@ -34,6 +34,8 @@ class StarMoves {
   /// To the centre of its star, unless that spoils it below `wanted_score`.
   void centre(VertexId v, double wanted_score);
 
+  /// Held samples slide only where a face of theirs scores less.
+  double slides_below = 1;
   /// While `bounded`, only faces with a corner in `inner` flip. All zero at first.
   bool bounded = false;
   Span<std::uint8_t> inner;  ///< per sample

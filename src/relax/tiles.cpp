@@ -39,7 +39,8 @@ Tiles::Tile Tiles::tile(FaceId f) const {
     corner[k] = surface_->position(surface_->mesh.origin[halfedge(f, k)]);
     density += surface_->density(halfedge(f, k)) / 3;
   }
-  return {(1.0 / 3) * (corner[0] + corner[1] + corner[2]), cross(corner[1] - corner[0], corner[2] - corner[0]), density};
+  return {(1.0 / 3) * (corner[0] + corner[1] + corner[2]), cross(corner[1] - corner[0], corner[2] - corner[0]),
+          density};
 }
 
 namespace {

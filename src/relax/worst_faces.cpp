@@ -8,6 +8,7 @@ inline namespace v1 {
 
 namespace {
 
+constexpr double thirty_degrees = 0.5773502691896258;  // the score of a face with that least angle
 constexpr std::uint32_t polish_rounds = 12;
 constexpr std::uint32_t visits_a_piece = 16;
 /// Passes of resettling, the worst faces first: shares of the wanted score; what is better is left where it is.
@@ -29,7 +30,9 @@ Status WorstFaces::begin(const Surface& surface, const Backbones* features, cons
   visits_left_ = 2000 + 2 * count;
   tries_left_ = 100 + count / 100;
   ISOLOD_TRY(moves_.begin(surface, features, mesh, samples, arena));
-  ISOLOD_TRY(resettle_.begin(surface, features, options.wanted_score, mesh, samples, moves_, arena));
+  moves_.slides_below = options.keeps_lines ? thirty_degrees : 1;
+  const Backbones* given_up = options.keeps_lines ? nullptr : features;
+  ISOLOD_TRY(resettle_.begin(surface, given_up, options.wanted_score, mesh, samples, moves_, arena));
   return arena.scratch(samples.count(), is_touched_);
 }
 

@@ -16,9 +16,11 @@ inline namespace v1 {
 struct WorstFacesOptions {
   double wanted_score = 0.65;  ///< least angles of 34 degrees
   bool resettles = true;
+  /// Lines are even already: samples on them slide only beside angles under 30 degrees, and none leaves its line.
+  bool keeps_lines = false;
 
   /// For a few samples that stand for a whole shape: better angles would cost too much of it.
-  static WorstFacesOptions for_few() { return {0.25, false}; }
+  static WorstFacesOptions for_few() { return {0.25, false, false}; }
 };
 
 /// A stage: begin, step until done, finish.

@@ -1,6 +1,7 @@
 // The whole library as one translation unit: what a vendor compiles, with include/ and src/ on the include path.
 #include "base/arena.cpp"
 #include "base/elementary.cpp"
+#include "base/fail.cpp"
 #include "base/hash.cpp"
 #include "base/predicates.cpp"
 #include "base/status.cpp"
@@ -106,3 +107,5 @@
 #include "pipeline/remesher.cpp"
 #include "pipeline/single_chart.cpp"
 #include "pipeline/stage_hashes.cpp"
+
+#include "c/isolod_c.cpp"

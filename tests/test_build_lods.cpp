@@ -307,7 +307,7 @@ TEST_CASE("build_lods: corners and straight lines are kept on every level") {
   }
 }
 
-TEST_CASE("build_lods: a sink that refuses ends the call, and later sinks are not called") {
+TEST_CASE("build_lods: a sink that refuses ends the call; all are asked before any gets data") {
   const shapes::Shape shape = made("sphere", 320);
   for (std::size_t refusing = 0; refusing < 3; ++refusing) {
     for (int refuse = 0; refuse < 3; ++refuse) {
@@ -317,8 +317,12 @@ TEST_CASE("build_lods: a sink that refuses ends the call, and later sinks are no
       const LodRun lods = run(view_of(shape), Options(), {60, 200, 30}, settings);
       CHECK(lods.status == Status::sink_failed);
       CHECK(lods.report.status == Status::sink_failed);
-      CHECK(lods.begun.size() == refusing + 1);
+      CHECK(lods.begun.size() == (refuse == 0 ? refusing + 1 : 3));
       CHECK(lods.kept[refusing].calls == refuse + 1);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const bool has_data = refuse > 0 && i <= refusing;
+        CHECK(lods.mesh(i).positions.empty() == !has_data);
+      }
     }
   }
 }

@@ -1,14 +1,19 @@
 // The bits of every stage's result, as a text file that a person can read and two machines can compare.
 //
-// A line is a case: what was run, then stage=hash for each stage; the first one that differs is where to look. To
-// accept a change of output: ISOLOD_UPDATE_GOLDEN=1 isolod_tests -tc="golden*", and say in the commit why the output
-// changed.
+// A line is a case: what was run, then stage=hash for each stage; the first one that differs is where to look. The last
+// line of each file is the output version that it was written for.
+//
+// To accept a change of output: raise ISOLOD_OUTPUT_VERSION in isolod/version.h, say in README.md's change list why,
+// and run ISOLOD_UPDATE_GOLDEN=1 isolod_tests -tc="golden*". Without a greater number nothing that differs is written;
+// cases and stages may come and go.
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <sstream>
 
+#include "isolod/version.h"
 #include "support/checker.h"
 #include "support/stages.h"
 
@@ -50,15 +55,71 @@ std::string first_difference(const std::string& wanted, const std::string& found
   }
 }
 
+const std::string version_mark = "# output version ";
+
+/// A golden file: its text, and the output version that it was written for; 0 for none.
+struct Golden {
+  std::string text;
+  unsigned version = 0;
+};
+
+Golden parse(const std::string& file_text) {
+  const std::size_t mark = file_text.rfind(version_mark);
+  if (mark == std::string::npos) return {file_text, 0};
+  return {file_text.substr(0, mark),
+          static_cast<unsigned>(std::strtoul(file_text.c_str() + mark + version_mark.size(), nullptr, 10))};
+}
+
+/// By case and stage, the hash. A case is the words of its line without hashes.
+std::map<std::string, std::string> hashes_of(const std::string& text) {
+  std::map<std::string, std::string> hashes;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string name;
+    for (std::string word; words >> word;) {
+      const std::size_t hash = word.rfind('=') + 1;  // 0: a hash alone
+      const bool is_hash = word.size() == hash + 16 && word.find_first_not_of("0123456789abcdef", hash) == word.npos;
+      if (is_hash) hashes[name + " " + word.substr(0, hash)] = word.substr(hash);
+      if (!is_hash) name += " " + word;
+    }
+  }
+  return hashes;
+}
+
+/// Whether what both texts hold is different: a hash of the same stage of the same case, or any line where there are no
+/// hashes.
+bool has_other_bits(const std::string& old_text, const std::string& new_text) {
+  const std::map<std::string, std::string> was = hashes_of(old_text), is = hashes_of(new_text);
+  if (was.empty()) return !old_text.empty() && old_text != new_text;
+  for (const auto& [name, hash] : was) {
+    const auto found = is.find(name);
+    if (found != is.end() && found->second != hash) return true;
+  }
+  return false;
+}
+
+/// Why this text may not replace that file; "" where it may.
+std::string refusal(const Golden& old, const std::string& text, unsigned version) {
+  if (version < old.version) return "the files are of a later output version than the library";
+  if (version == old.version && has_other_bits(old.text, text)) {
+    return "the output has changed: raise ISOLOD_OUTPUT_VERSION and say in README.md why";
+  }
+  return "";
+}
+
 /// Compares with the file, or writes it.
 void check_golden(const std::string& file, const std::string& found) {
+  CAPTURE(file);
+  const Golden golden = parse(read(file));
   if (updating()) {
-    std::ofstream(directory + file, std::ios::binary) << found;
+    REQUIRE(refusal(golden, found, ISOLOD_OUTPUT_VERSION) == "");
+    std::ofstream(directory + file, std::ios::binary) << found << version_mark << ISOLOD_OUTPUT_VERSION << "\n";
     MESSAGE("written: " << directory << file);
     return;
   }
-  CAPTURE(file);
-  CHECK(first_difference(read(file), found) == "");
+  CHECK(first_difference(golden.text, found) == "");
+  CHECK(golden.version == ISOLOD_OUTPUT_VERSION);  // else: ISOLOD_UPDATE_GOLDEN=1
 }
 
 struct Case {
@@ -148,4 +209,28 @@ TEST_CASE("golden: two small meshes, number by number") {
   REQUIRE(b.status.is_ok());
   check_golden("sphere_40.off", off(a.kept.mesh));
   check_golden("cube_62.off", off(b.kept.mesh));
+}
+
+TEST_CASE("golden: a changed hash is written only under a greater output version") {
+  const std::string hash = "0123456789abcdef", other = "0123456789abcdee";
+  const std::string file = "cube-12 V=5 angle=30 repair=" + hash + " lift=" + hash + "\n";
+  const Golden old = parse(file + version_mark + "3\n");
+  CHECK(old.text == file);
+  CHECK(old.version == 3);
+  CHECK(parse(file).version == 0);
+  CHECK(refusal(old, file, 3) == "");
+  CHECK(refusal(old, file, 4) == "");
+  CHECK(refusal(old, file, 2) != "");
+  const std::string changed = "cube-12 V=5 angle=30 repair=" + hash + " lift=" + other + "\n";
+  CHECK(refusal(old, changed, 3) != "");
+  CHECK(refusal(old, changed, 4) == "");
+  CHECK(refusal(parse(""), changed, 1) == "");  // there was no such file
+  // A case more, one less, a stage more, one less: no bit of what was there has changed.
+  CHECK(refusal(old, file + "cube-12 V=6 angle=30 repair=" + other + "\n", 3) == "");
+  CHECK(refusal(old, "cube-12 V=6 angle=30 repair=" + other + "\n", 3) == "");
+  CHECK(refusal(old, "cube-12 V=5 angle=30 repair=" + hash + " mend=" + other + " lift=" + hash + "\n", 3) == "");
+  CHECK(refusal(old, "cube-12 V=5 angle=30 lift=" + hash + "\n", 3) == "");
+  // A shape's hash stands alone; a mesh is its numbers.
+  CHECK(refusal(parse("head-20 " + hash + "\n" + version_mark + "3\n"), "head-20 " + other + "\n", 3) != "");
+  CHECK(refusal(parse("OFF\n3 1 0\n" + version_mark + "3\n"), "OFF\n3 1 1\n", 3) != "");
 }

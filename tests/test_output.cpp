@@ -80,3 +80,27 @@ TEST_CASE("output: one triangle, and a list that does not fit") {
   CHECK(list_triangles(mesh, out, block.arena) == Status::out_of_memory);
   CHECK(block.arena.mark().back == back);
 }
+
+TEST_CASE("output: the hash of a mesh is that of its result, and every number counts") {
+  const shapes::Shape shape = support::made("sphere", 320);
+  const support::Run run = support::run(support::view_of(shape), support::with_vertices(80));
+  REQUIRE(run.status.is_ok());
+  shapes::Shape mesh = run.kept.mesh;
+  const auto hash = [&] {
+    return hash_of({{mesh.positions.data(), mesh.positions.size()}, {mesh.triangles.data(), mesh.triangles.size()}});
+  };
+  CHECK(hash() == run.report.result_hash);
+  for (double& x : mesh.positions) {
+    const double before = x;
+    x += 1;
+    CHECK(hash() != run.report.result_hash);
+    x = before;
+  }
+  for (std::uint32_t& corner : mesh.triangles) {
+    ++corner;
+    CHECK(hash() != run.report.result_hash);
+    --corner;
+  }
+  mesh.positions.pop_back();
+  CHECK(hash() != run.report.result_hash);
+}

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -82,6 +83,18 @@ TEST_CASE("status: every element is named") {
     }
     CHECK(name(static_cast<Element>(value)) == expected);
   }
+}
+
+TEST_CASE("status: each code has a message of its own, part of a sentence") {
+  std::set<std::string> messages;
+  for (const auto& code : codes) {
+    const std::string text = message(code.first);
+    CHECK(text != "failed");
+    CHECK(text.back() != '.');
+    messages.insert(text);
+  }
+  CHECK(messages.size() == codes.size());
+  CHECK(std::string(message(static_cast<Status::Code>(200))) == "failed");
 }
 
 TEST_CASE("status: without arguments it is success; only that is ok") {

@@ -26,15 +26,6 @@ install_missing || exit 1
 out=build/bits
 mkdir -p "$out"
 
-good() {
-  passed=$((passed + 1))
-  echo "ok  $1"
-}
-bad() {
-  failed=$((failed + 1))
-  echo "BAD $1"
-}
-
 # build NAME COMPILER UNITY FLAGS; in one build of each compiler warnings are errors
 build() {
   strict=OFF

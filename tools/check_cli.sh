@@ -204,7 +204,37 @@ runs "the number that is named works" 0 "$isolod" remesh bracket.off --vertices 
 refuses "too little memory" 18 "--memory" "$isolod" remesh torus.off --vertices 700 --memory 64K -o y.off
 refuses "one less does not" 17 "vertices work" "$isolod" remesh bracket.off --vertices $((${works:-1} - 1)) --features 40 -o y.off
 holds "a refused run writes nothing" test ! -e y.off
-runs "memory as said" 0 "$isolod" remesh torus.off --vertices 700 --memory 256M -o y.off
+runs "memory as said" 0 "$isolod" remesh torus.off --vertices 700 --memory 256M --report run.json -o y.off
+holds "the block is exactly that" grep -Eq '"block_bytes": 268435456,?$' run.json
+refuses "too little memory again" 18 "--memory" "$isolod" remesh torus.off --vertices 700 --memory 200K -o x.off
+enough="$(sed -n 's/.*: --memory \([0-9]*\) would do.*/\1/p' errors.txt)"
+runs "the memory that is named is enough" 0 "$isolod" remesh torus.off --vertices 700 --memory "${enough:-0}" --report run.json -o x.off
+holds "and is the block" grep -Eq "\"block_bytes\": ${enough:-none},?\$" run.json
+holds "the result is the same" cmp x.off y.off
+used="$(sed -n 's/.*"arena_bytes": \([0-9]*\),*/\1/p' run.json | sort -n | tail -n 1)"
+holds "no more of it was used" test "${used:-0}" -gt 0 -a "${used:-0}" -le "${enough:-0}"
+refuses "memory of no size" 2 "--memory" "$isolod" remesh torus.off --vertices 700 --memory 0 -o x.off
+refuses "memory in no unit" 2 "--memory" "$isolod" remesh torus.off --vertices 700 --memory 3T -o x.off
+refuses "validate in too little memory" 18 "torus.off: " "$isolod" validate torus.off --memory 2K
+enough="$(sed -n 's/.*: --memory \([0-9]*\) would do.*/\1/p' errors.txt)"
+runs "validate in what is named" 0 "$isolod" validate torus.off --memory "${enough:-0}"
+
+# --- hashes: a line "hash  file", the same for the same mesh whatever its file
+hash_of() { sed -n 's/^\([0-9a-f]\{16\}\)  [^ ]*$/\1/p' output.txt; }
+runs "hash" 0 "$isolod" remesh torus.off --vertices 700 --quiet --hash --report run.json -o y.off
+hash="$(hash_of)"
+holds "is one line, with the file" test "$(cat output.txt)" = "$hash  y.off"
+result_hash="$hash"
+holds "is that of the report" grep -q "\"result_hash\": \"${hash:-none}\"" run.json
+holds "the report tells the output version" grep -Eq '"output_version": [1-9][0-9]*,' run.json
+runs "nothing cut away" 0 "$isolod" cut y.off --plane 0,0,1,100 --hash -o y.ply
+holds "is the same hash" test "$(hash_of)" = "$hash"
+runs "hash of another result" 0 "$isolod" remesh torus.off --vertices 701 --quiet --hash -o y.off
+holds "is another" test "$(hash_of)" != "$hash"
+runs "hash of a made shape" 0 "$isolod" make torus --triangles 3000 --hash -o y.obj
+hash="$(hash_of)"
+runs "hash of the same from its file" 0 "$isolod" cut y.obj --plane 0,0,1,100 --hash -o y.off
+holds "is the same hash" test "$(hash_of)" = "$hash"
 echo precious >kept.obj
 refuses "a failed run" 15 "vertex 2" "$isolod" remesh nan.obj --vertices 100 -o kept.obj
 holds "leaves the old file" grep -q precious kept.obj
@@ -218,6 +248,9 @@ for count in 700 200 50; do
   holds "a file of $count" test "$(grep -c '^v ' level-$count.obj)" -eq $count
   runs "validate it" 0 "$isolod" validate level-$count.obj
 done
+runs "levels with their hashes" 0 "$isolod" lods torus.off --vertices 200,700,50 --quiet --hash -o level.obj
+holds "a line for each level" test "$(grep -c '^[0-9a-f]\{16\}  level-[0-9]*\.obj$' output.txt)" -eq 3 -a "$(wc -l <output.txt)" -eq 3
+holds "the finest is the one mesh" grep -qx "$result_hash  level-700.obj" output.txt
 runs "one mesh of the finest" 0 "$isolod" remesh torus.off --vertices 700 --quiet -o alone.obj
 holds "is the same" cmp alone.obj level-700.obj
 mkdir v1.5

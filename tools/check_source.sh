@@ -71,7 +71,7 @@ ban "only small headers of the standard library" "# *include *<" \
 # Includes run one way.
 awk -F'[:]' '
   BEGIN {
-    count = split("base mesh surface sample atlas plane result relax pipeline stream", name, " ")
+    count = split("base mesh surface sample atlas plane result relax pipeline stream c", name, " ")
     for (i = 1; i <= count; ++i) rank[name[i]] = i
   }
   /# *include *"/ {
@@ -103,13 +103,28 @@ done <"$work/files" >"$work/found"
 verdict "each file says what it is" "$work/found"
 
 # Every source of the core is in the unity file.
-for file in src/base src/mesh src/surface src/sample src/atlas src/plane src/result src/relax src/pipeline; do
+for file in src/base src/mesh src/surface src/sample src/atlas src/plane src/result src/relax src/pipeline src/c; do
   for source in "$file"/*.cpp; do
     [ -e "$source" ] || continue
     grep -qF "\"${source#src/}\"" src/isolod.cpp || echo "$source: not in src/isolod.cpp"
   done
 done >"$work/found"
 verdict "the unity file holds every source" "$work/found"
+
+# A shared library shows what is marked, so every public function is.
+grep -nE '^[A-Za-z_].*\(' include/isolod/*.h |
+  grep -vE ':(ISOLOD_API|inline|constexpr|template|static|typedef|class|struct|enum) ' >"$work/found"
+verdict "public functions are marked ISOLOD_API" "$work/found"
+
+while read -r file; do sed -n 's/^inline namespace \([a-z0-9_]*\) {$/\1/p' "$file"; done <"$work/files" | sort | uniq -c |
+  sed 1d >"$work/found"
+verdict "all lies in one version namespace" "$work/found"
+
+output="$(sed -n 's/^#define ISOLOD_OUTPUT_VERSION \([0-9]*\)$/\1/p' include/isolod/version.h)"
+: >"$work/found"
+grep -qE "^- Output ${output:-none}: [a-z]" README.md ||
+  echo "README.md: no line '- Output $output: ...' in its change list" >"$work/found"
+verdict "the change list says why the output version is what it is" "$work/found"
 
 # What the compiled library asks of a system: a few memory functions. And it keeps no state.
 flags="-std=c++17 -O2 -fno-pie -fno-exceptions -fno-rtti -ffp-contract=off -fno-math-errno -Iinclude -Isrc"

@@ -82,9 +82,19 @@ build_program() {
   isolod=build/program/tools/isolod/isolod
 }
 
-# add_counts FILE: adds the last line `N passed, N failed` of a log to $passed and $failed; without one, a failure.
+# good NAME, bad NAME: one thing that was checked.
 passed=0
 failed=0
+good() {
+  passed=$((passed + 1))
+  echo "ok  $1"
+}
+bad() {
+  failed=$((failed + 1))
+  echo "BAD $1"
+}
+
+# add_counts FILE: adds the last line `N passed, N failed` of a log to $passed and $failed; without one, a failure.
 add_counts() {
   line="$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$1" | tail -n 1)"
   if [ -z "$line" ]; then

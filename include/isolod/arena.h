@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "isolod/api.h"
 #include "isolod/status.h"
 
 namespace isolod {
@@ -49,7 +50,7 @@ struct ArenaMark {
 class Arena {
  public:
   Arena() = default;
-  Arena(void* block, std::size_t bytes);
+  ISOLOD_API Arena(void* block, std::size_t bytes);
 
   /// Room for `count` results of type T.
   template <class T>
@@ -64,8 +65,8 @@ class Arena {
   }
 
   ArenaMark mark() const { return {front_, back_}; }
-  void rewind_results(ArenaMark mark);
-  void rewind_scratch(ArenaMark mark);
+  ISOLOD_API void rewind_results(ArenaMark mark);
+  ISOLOD_API void rewind_scratch(ArenaMark mark);
 
   std::size_t capacity() const { return capacity_; }
   std::size_t used() const { return front_ + back_; }
@@ -85,7 +86,7 @@ class Arena {
     out = status.is_ok() ? Span<T>(static_cast<T*>(piece), count) : Span<T>();
     return status;
   }
-  Status take(std::size_t count, std::size_t size, bool at_front, void*& piece);
+  ISOLOD_API Status take(std::size_t count, std::size_t size, bool at_front, void*& piece);
 
   unsigned char* block_ = nullptr;
   std::size_t capacity_ = 0;

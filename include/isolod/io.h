@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "isolod/api.h"
 #include "isolod/arena.h"
 #include "isolod/mesh.h"
 #include "isolod/status.h"
@@ -15,13 +16,13 @@ inline namespace v1 {
 enum class FileFormat : std::uint8_t { unknown, obj, off, ply, stl, glb };
 
 /// By the ending of a file's name, upper or lower case; `unknown` for any other.
-FileFormat format_of_name(const char* path);
+ISOLOD_API FileFormat format_of_name(const char* path);
 
 /// By what the file begins with (and, for a binary STL, by its size).
-FileFormat format_of_content(Span<const unsigned char> file);
+ISOLOD_API FileFormat format_of_content(Span<const unsigned char> file);
 
 /// The format's name, such as "obj"; "unknown" for none.
-const char* name(FileFormat format);
+ISOLOD_API const char* name(FileFormat format);
 
 /// A mesh that was read: lies in the arena until that is rewound.
 struct LoadedMesh {
@@ -32,7 +33,7 @@ struct LoadedMesh {
 
   std::size_t vertex_count() const { return positions.count / 3; }
   std::size_t triangle_count() const { return triangles.count / 3; }
-  MeshView view() const;
+  ISOLOD_API MeshView view() const;
 };
 
 /// Reads a whole file that lies in memory. `FileFormat::unknown` stands for `format_of_content(file)`.
@@ -50,7 +51,7 @@ struct LoadedMesh {
 /// Memory: the result exactly (24 bytes a vertex, 12 a triangle, 4 more with materials) and scratch: 32 bytes a corner
 /// of the largest polygon; STL 24 to 48 bytes a triangle, 84 more when it is text; GLB 16 bytes a JSON token and about
 /// 220 a node. Time is linear in the file's size, concave polygons of thousands of corners aside.
-Status read_mesh(Span<const unsigned char> file, FileFormat format, LoadedMesh& mesh, Arena& arena);
+ISOLOD_API Status read_mesh(Span<const unsigned char> file, FileFormat format, LoadedMesh& mesh, Arena& arena);
 
 /// Where written bytes go. False ends the call with `Status::sink_failed`.
 struct ByteSink {
@@ -71,8 +72,8 @@ struct WriteOptions {
 /// Everything is checked before the first byte is written: `position_not_finite`, `index_out_of_range`,
 /// `unknown_format` (GLB too), `invalid_option` (big-endian STL), `too_large`; `sink_failed` afterwards.
 /// Needs no arena; the bytes come in pieces of at most 1 KB and are the same on every machine.
-Status write_mesh(const WriteOptions& options, Span<const double> positions, Span<const std::uint32_t> triangles,
-                  const ByteSink& sink);
+ISOLOD_API Status write_mesh(const WriteOptions& options, Span<const double> positions,
+                             Span<const std::uint32_t> triangles, const ByteSink& sink);
 
 }  // namespace v1
 }  // namespace isolod

@@ -25,15 +25,12 @@
 //   }
 //
 // To spread the work over frames, let a `Remesher` do the same in slices. Files are read and written by isolod/io.h,
-// which this header leaves out: it belongs to a library of its own.
+// which this header leaves out: it belongs to a library of its own. For C there is isolod/isolod_c.h.
 #pragma once
-
-#define ISOLOD_VERSION_MAJOR 0
-#define ISOLOD_VERSION_MINOR 1
-#define ISOLOD_VERSION_PATCH 0
 
 #include "isolod/arena.h"
 #include "isolod/mesh.h"
 #include "isolod/options.h"
 #include "isolod/remesh.h"
 #include "isolod/status.h"
+#include "isolod/version.h"

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "isolod/api.h"
 #include "isolod/arena.h"
 #include "isolod/mesh.h"
 #include "isolod/options.h"
@@ -23,7 +24,7 @@ struct RepairReport {
   std::uint32_t flipped_triangles = 0;         ///< turned over to agree with their component
   std::uint32_t one_sided_cuts = 0;            ///< edges opened in a component that has no two sides
 
-  bool changed() const;
+  ISOLOD_API bool changed() const;
 };
 
 /// One stage of a run, in the order in which it ran.
@@ -95,6 +96,12 @@ struct ResultMesh {
   Span<const std::uint32_t> triangles;  ///< 3 a triangle
 };
 
+/// The hash of a mesh's raw bits, that of a result as in `Report::result_hash`. Positions must be finite.
+ISOLOD_API std::uint64_t hash_of(const ResultMesh& mesh);
+
+/// ISOLOD_OUTPUT_VERSION of the library that runs.
+ISOLOD_API std::uint32_t output_version();
+
 struct LodRequest;
 struct Lod;
 
@@ -103,15 +110,15 @@ struct Lod;
 class Remesher {
  public:
   /// Checks the options and prepares. Working memory, results included, comes from `arena`.
-  Status begin(const MeshView& view, const Options& options, const Hooks& hooks, Arena& arena);
+  ISOLOD_API Status begin(const MeshView& view, const Options& options, const Hooks& hooks, Arena& arena);
 
   /// Does about `work` units (a unit is roughly one triangle or sample visited once) and returns. Afterwards `done()`
   /// tells whether the run is over. A failure is final.
-  Status advance(std::uint64_t work);
+  ISOLOD_API Status advance(std::uint64_t work);
 
-  bool done() const;
-  ResultMesh result() const;     ///< once done
-  const Report& report() const;  ///< only after a `begin` that succeeded
+  ISOLOD_API bool done() const;
+  ISOLOD_API ResultMesh result() const;     ///< once done
+  ISOLOD_API const Report& report() const;  ///< only after a `begin` that succeeded
 
   struct State;
   /// What the run holds between two calls, for tools that draw and test the stages (pipeline/state.h). Null before
@@ -126,8 +133,8 @@ class Remesher {
 
 /// Remeshes `view` to exactly `options.vertex_count` vertices and gives the mesh to `sink`. On any failure the sink has
 /// not been called, and the arena is back where it was. `report` may be null.
-Status remesh(const MeshView& view, const Options& options, const MeshSink& sink, Report* report, Arena& arena,
-              const Hooks& hooks = {});
+ISOLOD_API Status remesh(const MeshView& view, const Options& options, const MeshSink& sink, Report* report,
+                         Arena& arena, const Hooks& hooks = {});
 
 /// A level of detail that is wished, and who gets it.
 struct LodRequest {
@@ -138,18 +145,19 @@ struct LodRequest {
 /// Makes several levels of detail of exactly so many vertices each, from one analysis and one set of maps: the finest
 /// as `remesh` would, the others from the levels that it goes through, coarse to fine. `options.vertex_count` does not
 /// count; `options.remove_seams` must be true (else invalid_option). The sinks are called in the order of the requests
-/// once all meshes are known to be good; equal counts give equal meshes only if they are below the greatest. Where one
-/// count is too small, budget_too_small names a number that works for it; nothing is given out then. `report` is that
-/// of the finest. Memory: the results, and some 400 bytes a vertex of the coarser ones besides what the finest needs.
-Status build_lods(const MeshView& view, const Options& options, Span<const LodRequest> requests, Report* report,
-                  Arena& arena, const Hooks& hooks = {});
+/// once all meshes are known to be good, first each sink's `begin`, so that one may refuse before another got any data;
+/// equal counts give equal meshes only if they are below the greatest. Where one count is too small, budget_too_small
+/// names a number that works for it; nothing is given out then. `report` is that of the finest. Memory: the results,
+/// and some 400 bytes a vertex of the coarser ones besides what the finest needs.
+ISOLOD_API Status build_lods(const MeshView& view, const Options& options, Span<const LodRequest> requests,
+                             Report* report, Arena& arena, const Hooks& hooks = {});
 
 /// Bytes of arena that are enough for any mesh of these counts.
-std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options);
+ISOLOD_API std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options);
 
 /// The same for these levels of detail at once; `options.vertex_count` does not count.
-std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options,
-                            Span<const LodRequest> requests);
+ISOLOD_API std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options,
+                                       Span<const LodRequest> requests);
 
 }  // namespace v1
 }  // namespace isolod

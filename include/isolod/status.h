@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "isolod/api.h"
+
 namespace isolod {
 inline namespace v1 {
 
@@ -57,10 +59,13 @@ constexpr bool operator==(const Status& status, Status::Code code) { return stat
 constexpr bool operator!=(const Status& status, Status::Code code) { return status.code != code; }
 
 /// The code's name as it is spelled above, such as "budget_too_small".
-const char* name(Status::Code code);
+ISOLOD_API const char* name(Status::Code code);
+
+/// What the code means, for a person: part of a sentence, without a stop, such as "the memory block is too small".
+ISOLOD_API const char* message(Status::Code code);
 
 /// The element's name, such as "triangle"; "" for none.
-const char* name(Element element);
+ISOLOD_API const char* name(Element element);
 
 }  // namespace v1
 }  // namespace isolod

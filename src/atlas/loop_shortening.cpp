@@ -315,7 +315,7 @@ void LoopShortening::take_way(std::uint32_t loop, std::size_t count) {
   for (std::uint32_t i = 0; i < count; ++i) {
     std::uint32_t lower_lanes = 0;
     for (std::uint32_t j = behind_[lower(way_[i].edge)]; j != nothing; j = way_next_[j]) {
-      lower_lanes += way_[j].rank < way_[i].rank ? 1 : 0;
+      lower_lanes += way_[j].rank < way_[i].rank ? 1u : 0u;
     }
     loops_.steps[begin + i] = {way_[i].edge, way_[i].rank + lower_lanes};
   }

@@ -17,7 +17,7 @@ namespace {
 template <int N>
 struct Expansion {
   int count;
-  double part[N];
+  double part[static_cast<std::size_t>(N)];
 };
 
 /// h = e + f, at most n + m parts. Returns their number.

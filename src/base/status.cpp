@@ -3,8 +3,6 @@
 namespace isolod {
 inline namespace v1 {
 
-Status fail(Status::Code code, Element element, std::uint64_t value) { return Status(code, element, value); }
-
 const char* name(Status::Code code) {
   switch (code) {
     case Status::ok:
@@ -47,6 +45,50 @@ const char* name(Status::Code code) {
       return "not_admitted";
   }
   return "unknown";
+}
+
+const char* message(Status::Code code) {
+  switch (code) {
+    case Status::ok:
+      return "all went well";
+    case Status::cancelled:
+      return "cancelled";
+    case Status::invalid_option:
+      return "an option is out of its range";
+    case Status::empty_mesh:
+      return "no triangle with area is left";
+    case Status::too_large:
+      return "more elements than 32-bit indices can name";
+    case Status::index_out_of_range:
+      return "names a vertex that does not exist";
+    case Status::position_not_finite:
+      return "a coordinate is NaN or infinite";
+    case Status::density_not_positive:
+      return "the density is not a positive finite number";
+    case Status::budget_too_small:
+      return "too few vertices for the corners and the topology of this shape";
+    case Status::out_of_memory:
+      return "the memory block is too small";
+    case Status::no_convergence:
+      return "a bounded search ended without a usable result";
+    case Status::sink_failed:
+      return "the result could not be handed over";
+    case Status::cannot_open:
+      return "cannot be opened, read or written";
+    case Status::unknown_format:
+      return "unknown file type";
+    case Status::syntax_error:
+      return "breaks the rules of its format";
+    case Status::truncated_file:
+      return "the file ends before its contents do";
+    case Status::unsupported_feature:
+      return "valid, but of a kind that is not read or written here";
+    case Status::invalid_result:
+      return "the result breaks one of the library's own promises; please report it";
+    case Status::not_admitted:
+      return "what an option forces is not for a surface of this topology";
+  }
+  return "failed";
 }
 
 const char* name(Element element) {

@@ -25,13 +25,15 @@ Status check_coarser(Span<const Lod> coarser, Arena& arena) {
   return {};
 }
 
+/// All sinks hear what will come before one of them gets it: a sink that refuses leaves the others without data.
 Status deliver_all(Span<const LodRequest> requests, std::uint32_t finest, const ResultMesh& mesh,
                    Span<const Lod> coarser) {
-  for (std::uint32_t i = 0; i < requests.count; ++i) {
+  const auto mesh_of = [&](std::uint32_t i) {
     const std::uint32_t k = i < finest ? i : i - 1;
-    const ResultMesh one = i == finest ? mesh : ResultMesh{coarser[k].positions, coarser[k].triangles};
-    ISOLOD_TRY(deliver(one, requests[i].sink));
-  }
+    return i == finest ? mesh : ResultMesh{coarser[k].positions, coarser[k].triangles};
+  };
+  for (std::uint32_t i = 0; i < requests.count; ++i) ISOLOD_TRY(announce(mesh_of(i), requests[i].sink));
+  for (std::uint32_t i = 0; i < requests.count; ++i) ISOLOD_TRY(deliver(mesh_of(i), requests[i].sink));
   return {};
 }
 

@@ -109,9 +109,14 @@ ResultMesh Remesher::result() const {
 
 const Report& Remesher::report() const { return state_->report; }
 
-Status deliver(const ResultMesh& mesh, const MeshSink& sink) {
+Status announce(const ResultMesh& mesh, const MeshSink& sink) {
   const std::size_t vertices = mesh.positions.count / 3, triangles = mesh.triangles.count / 3;
   if (sink.begin != nullptr && !sink.begin(sink.context, vertices, triangles)) return fail(Status::sink_failed);
+  return {};
+}
+
+Status deliver(const ResultMesh& mesh, const MeshSink& sink) {
+  const std::size_t vertices = mesh.positions.count / 3, triangles = mesh.triangles.count / 3;
   if (sink.vertices != nullptr && !sink.vertices(sink.context, mesh.positions.data, vertices)) {
     return fail(Status::sink_failed);
   }
@@ -176,6 +181,7 @@ Status remesh(const MeshView& view, const Options& options, const MeshSink& sink
   if (status.is_ok()) status = remesher.advance(UINT64_MAX - 1);
   if (report != nullptr && remesher.state() != nullptr) *report = remesher.report();
   const bool is_named_well = remesher.state() != nullptr && remesher.state()->is_thinnest;
+  if (status.is_ok()) status = announce(remesher.result(), sink);
   if (status.is_ok()) status = deliver(remesher.result(), sink);
   arena.rewind_results(mark);
   arena.rewind_scratch(mark);

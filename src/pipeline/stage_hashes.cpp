@@ -57,7 +57,7 @@ std::uint64_t hash_places(const State& s) { return hash_of(s.chart_start, s.plac
 std::uint64_t hash_samples(const State& s) {
   return hash_of(s.samples.place, s.samples.anchor, s.samples.held, s.stitch.mesh().mesh.origin);
 }
-std::uint64_t hash_result(const State& s) { return hash_of(s.finish.positions, s.finish.triangles); }
+std::uint64_t hash_result(const State& s) { return hash_of(ResultMesh{s.finish.positions, s.finish.triangles}); }
 
 }  // namespace v1
 }  // namespace isolod

@@ -70,7 +70,8 @@ struct Remesher::State {
   SampledSurface sampled() const { return {&surface, &atlas, &backbones, &lines, places, chart_start, numbers}; }
 };
 
-/// Gives a mesh to a sink; sink_failed where a callback says so.
+/// Tells a sink what will come, then gives it the mesh; sink_failed where a callback says so.
+Status announce(const ResultMesh& mesh, const MeshSink& sink);
 Status deliver(const ResultMesh& mesh, const MeshSink& sink);
 
 /// A stage of the run: its name and its work, piece by piece. `units` is what the piece cost.

@@ -8,7 +8,7 @@ inline namespace v1 {
 namespace {
 
 constexpr std::uint64_t operations_a_step = 4000000;
-constexpr std::uint32_t most_rounds = 8;       // before the origin is moved, and again after it
+constexpr std::uint32_t most_map_rounds = 8;   // before the origin is moved, and again after it
 constexpr double settled = 1e-13;              // change of an edge over its length: nothing more is to be had
 constexpr double least_coordinate = 0x1p-190;  // the predicates are exact from 2^-200 on
 
@@ -135,7 +135,7 @@ VertexId FlattenWhole::find_most_stretched(bool inner_only) const {
 
 void FlattenWhole::refine() {
   const double change = system_.refine(uv_, still_);
-  const bool ended = ++rounds_ >= most_rounds || change <= settled || (rounds_ > 2 && change > 0.25 * last_change_);
+  const bool ended = ++rounds_ >= most_map_rounds || change <= settled || (rounds_ > 2 && change > 0.25 * last_change_);
   last_change_ = change;
   if (!ended) return;
   if (centred_) {

@@ -8,9 +8,9 @@ inline namespace v1 {
 
 namespace {
 
-constexpr std::uint32_t most_steps = 12;  // of conjugate gradient in a round
-constexpr double least_height = 1e-12;    // of a triangle, over its longest side: less is lost in rounding
-constexpr double reduction = 1e-10;       // of the error's energy in a round, squared
+constexpr std::uint32_t most_gradient_steps = 12;  // of conjugate gradient in a round
+constexpr double least_apex_height = 1e-12;        // of a triangle, over its longest side: less is lost in rounding
+constexpr double reduction = 1e-10;                // of the error's energy in a round, squared
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void WholeSystem::lay_down(Span<const Vec3> position) {
       side_one_[f] = side_two_[f] = {0, 0};
       continue;
     }
-    const Vec2 apex{dot(other, along) / width, greater(length(cross(along, other)) / width, least_height * width)};
+    const Vec2 apex{dot(other, along) / width, greater(length(cross(along, other)) / width, least_apex_height * width)};
     const double scale = 1 / square_root(width * apex.y);
     Vec2 e[3];
     e[base] = scale * Vec2{apex.x - width, apex.y};
@@ -159,7 +159,7 @@ double WholeSystem::refine(Span<Vec2> z, VertexId still) {
     energy += dot(residual_[i], solved[i]);
   }
   const double first = energy;
-  for (std::uint32_t step = 0; step < most_steps && energy > reduction * first; ++step) {
+  for (std::uint32_t step = 0; step < most_gradient_steps && energy > reduction * first; ++step) {
     gradient(direction_, image_);
     double curvature = 0;
     for (std::size_t i = 0; i < n; ++i) curvature += dot(direction_[i], image_[i]);

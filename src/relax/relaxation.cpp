@@ -12,7 +12,7 @@ inline namespace v1 {
 
 namespace {
 
-constexpr std::uint32_t most_halvings = 3;
+constexpr std::uint32_t most_way_halvings = 3;
 constexpr std::uint32_t flip_rounds = 2;
 constexpr double least_cosine = 0.1;      // between a face and its star, for it to count as not turned over
 constexpr double least_upright = 0.5;     // length of the sum of a star's area vectors over the sum of their lengths
@@ -207,7 +207,7 @@ void Relaxation::move(SampleId s) {
   if (samples_.held[s] == hold_place || !(cell_[s].weight > 0)) return;
   const Vec3 normal = normal_at(vertex(s));
   Vec3 way = shortened(s, step_of(s, normal));
-  for (std::uint32_t halving = 0; halving <= most_halvings && !has_moved_[s]; ++halving, way = 0.5 * way) {
+  for (std::uint32_t halving = 0; halving <= most_way_halvings && !has_moved_[s]; ++halving, way = 0.5 * way) {
     has_moved_[s] = slides ? slide_by(s, normal, way) : move_by(s, normal, way);
   }
 }

@@ -1,7 +1,10 @@
 #include "result/output.h"
 
+#include "base/hash.h"
 #include "base/sort.h"
 #include "base/status.h"
+#include "isolod/remesh.h"
+#include "isolod/version.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -41,6 +44,15 @@ Status list_triangles(const Halfedges& mesh, Span<std::uint32_t>& triangles, Are
   }
   return {};
 }
+
+std::uint64_t hash_of(const ResultMesh& mesh) {
+  ContentHash hash;
+  for (const double x : mesh.positions) hash.add(x);
+  for (const std::uint32_t corner : mesh.triangles) hash.add(corner);
+  return hash.value();
+}
+
+std::uint32_t output_version() { return ISOLOD_OUTPUT_VERSION; }
 
 }  // namespace v1
 }  // namespace isolod

@@ -13,7 +13,7 @@ constexpr double two_pi = 6.283185307179586477;
 
 constexpr double taken_by_interval = 0.5;  // from the face on either side of a line
 
-constexpr std::size_t most_faces = 4096;  // a debt that nobody within so many can pay is left to the fluency
+constexpr std::size_t most_payers = 4096;  // a debt that nobody within so many can pay is left to the fluency
 
 /// A node stands for its total angle over 2 pi; the ends of its lines have taken half an interval each already.
 void take_node(const Surface& surface, VertexId v, Span<double> wish) {
@@ -136,7 +136,7 @@ std::size_t FaceWishes::settle(FaceId debtor) {
     queue_[tail++] = f;
   };
   enter(debtor);
-  for (; head < tail && head < most_faces && debt > 0; ++head) {
+  for (; head < tail && head < most_payers && debt > 0; ++head) {
     double& wish = wish_[queue_[head]];
     const double paid = wish > 0 ? smaller(wish, debt) : 0;
     wish -= paid;

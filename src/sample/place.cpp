@@ -17,8 +17,8 @@ Weights turk(Vec2 square) {
   return {(1 - square.x) * root, square.x * root};
 }
 
-constexpr std::uint32_t rows = 4;
-constexpr std::uint32_t piece_count = rows * rows;
+constexpr std::uint32_t place_rows = 4;
+constexpr std::uint32_t piece_count = place_rows * place_rows;
 
 /// Corner weights of piece `p` of the triangle cut into 4 by 4: row by row, upright pieces at even places of a row.
 void piece_corners(std::uint32_t p, Weights (&corner)[3]) {
@@ -27,7 +27,7 @@ void piece_corners(std::uint32_t p, Weights (&corner)[3]) {
   const std::uint32_t place = p - first;
   const std::uint32_t column = place / 2;
   const double across = column, down = row;
-  const auto at = [](double r, double a) { return Weights{(r - a) / rows, a / rows}; };
+  const auto at = [](double r, double a) { return Weights{(r - a) / place_rows, a / place_rows}; };
   if (place % 2 == 0) {
     corner[0] = at(down, across), corner[1] = at(down + 1, across), corner[2] = at(down + 1, across + 1);
   } else {

@@ -253,8 +253,8 @@ void SingleStrip::join(HalfedgeId h) {
   const HalfedgeId t = twin_[h];
   if (mate_[face(h)] != h || !is_real(t) || t < h || cycle_of(face(h)) == cycle_of(face(t))) return;
   unite(face(h), face(t));
-  flags_[face(h)] |= split;
-  flags_[face(t)] |= split;
+  flags_[face(h)] |= halved;
+  flags_[face(t)] |= halved;
   split_count_ += 2;
 }
 
@@ -264,7 +264,7 @@ void SingleStrip::join(HalfedgeId h) {
 HalfedgeId SingleStrip::go_on(HalfedgeId in, HalfedgeId& half) const {
   const HalfedgeId mate = mate_[face(in)];
   half = none<HalfedgeId>();
-  if ((flags_[face(in)] & split) == 0) return twin_[in == next(mate) ? prev(mate) : next(mate)];
+  if ((flags_[face(in)] & halved) == 0) return twin_[in == next(mate) ? prev(mate) : next(mate)];
   half = in == next(mate) ? prev(twin_[mate]) : next(twin_[mate]);
   return twin_[half];
 }

@@ -35,7 +35,7 @@ class SingleStrip {
   /// The strip: a triangle is given by one of its halfedges, a half by the one side of the triangle that it has whole;
   /// none stands between triangles that are not neighbours.
   Span<const HalfedgeId> items() const { return items_.first(item_count_); }
-  bool is_split(FaceId f) const { return (flags_[f] & split) != 0; }
+  bool is_split(FaceId f) const { return (flags_[f] & halved) != 0; }
   std::uint32_t split_count() const { return split_count_; }
 
  private:
@@ -59,7 +59,7 @@ class SingleStrip {
     listing,
     pass_count
   };
-  enum Flag : std::uint8_t { split = 1, listed = 2 };
+  enum Flag : std::uint8_t { halved = 1, listed = 2 };
 
   bool is_real(HalfedgeId h) const { return h.value < mesh_.halfedge_count(); }
   Status close(Arena& arena);

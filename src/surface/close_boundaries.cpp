@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t least_samples = 3;
 constexpr double most_cap_area = 2.0 / 3;  // of the component's own
-constexpr std::uint8_t on_rim = 2;         // in MeshDraft::corner: to be judged anew
+constexpr std::uint8_t judged_anew = 2;    // in MeshDraft::corner: its rim has changed
 
 /// Calls visit(h) for each halfedge of the boundary loop of `first`, in its order.
 template <class Visit>
@@ -188,7 +188,7 @@ void CloseBoundaries::add_cap(const Surface& surface, const Loop& loop) {
   for (std::uint32_t i = 0; i < rim_.count; ++i) {
     const HalfedgeId in = side_[i], out = side_[i == 0 ? rim_.count - 1 : i - 1];
     rim_density_[i] = rim_density(surface, in, out);
-    draft_.corner[rim_[i]] = on_rim;
+    draft_.corner[rim_[i]] = judged_anew;
     draft_.line[in] = without_boundary(surface.line[in]);
     const double weight = edge_length(surface, in) + edge_length(surface, out);
     mass += weight * static_cast<double>(rim_density_[i]);
@@ -304,7 +304,7 @@ Status CloseBoundaries::build(Surface& surface, Arena& arena) {
       return {};
     case Phase::corners:
       if (sweep_.over<VertexId>(surface.corner.count, [&](VertexId v) {
-            if (surface.corner[v] == on_rim) surface.corner[v] = is_corner(surface, v, options_.corner_angle);
+            if (surface.corner[v] == judged_anew) surface.corner[v] = is_corner(surface, v, options_.corner_angle);
           })) {
         finish(arena);
       }

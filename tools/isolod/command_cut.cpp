@@ -70,7 +70,8 @@ const CommandRule& cut_rule() {
       "Triangles stay whole; vertices that none uses any more go; the order of the others stays.",
       {{"--plane", "A,B,C,D", "beyond is where A x + B y + C z > D"},
        {"-o", "OUT", "the file to write"},
-       {"--ascii", nullptr, "write PLY or STL as text"}}};
+       {"--ascii", nullptr, "write PLY or STL as text"},
+       hash_rule()}};
   return rule;
 }
 
@@ -86,6 +87,7 @@ int command_cut(const Arguments& arguments) {
   write_mesh_file(file, format, mesh);
   std::printf("%s: %zu vertices, %zu triangles; %zu triangles were taken away\n", output.c_str(), mesh.vertex_count(),
               mesh.triangle_count(), whole.loaded.triangle_count() - mesh.triangle_count());
+  if (arguments.has("--hash")) print_hash(mesh, output);
   return exit_ok;
 }
 

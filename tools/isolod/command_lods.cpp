@@ -75,6 +75,9 @@ int command_lods(const Arguments& arguments) {
   if (!outcome.status.is_ok()) fail_status(input, outcome.status);
   for (std::size_t i = 0; i < files.size(); ++i) write_mesh_file(*files[i], format, outcome.lods[i]);
   if (!arguments.has("--quiet")) print_summary(input, files, outcome);
+  for (std::size_t i = 0; arguments.has("--hash") && i < files.size(); ++i) {
+    print_hash(outcome.lods[i], files[i]->path());
+  }
   return exit_ok;
 }
 

@@ -27,7 +27,8 @@ const CommandRule& make_rule() {
                                    "The same name and size give the same bytes on every machine.",
                                    {{"--triangles", "N", "about how many triangles; 20000 when not given"},
                                     {"-o", "OUT", "the file to write"},
-                                    {"--ascii", nullptr, "write PLY or STL as text"}}};
+                                    {"--ascii", nullptr, "write PLY or STL as text"},
+                                    hash_rule()}};
   return rule;
 }
 
@@ -54,6 +55,7 @@ int command_make(const Arguments& arguments) {
   mesh.triangles = std::move(shape.triangles);
   write_mesh_file(file, format, mesh);
   std::printf("%s: %zu vertices, %zu triangles\n", path.c_str(), mesh.vertex_count(), mesh.triangle_count());
+  if (arguments.has("--hash")) print_hash(mesh, path);
   return exit_ok;
 }
 

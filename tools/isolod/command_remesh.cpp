@@ -66,6 +66,7 @@ int command_remesh(const Arguments& arguments) {
   if (!outcome.status.is_ok()) fail_status(input, outcome.status);
   write_mesh_file(output_file, format, outcome.mesh);
   if (!arguments.has("--quiet")) print_summary(input, output, outcome);
+  if (arguments.has("--hash")) print_hash(outcome.mesh, output);
   if (!pictures) return exit_ok;
   const std::string folder = arguments.required_text("--pictures");
   const std::size_t drawn = draw_pictures(folder, view, settings, outcome);

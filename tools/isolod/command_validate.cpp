@@ -40,15 +40,19 @@ std::string describe_finding(const isolod::Finding& finding) {
   }
 }
 
-/// By the library's own check, which knows the element.
-std::string first_defect(const InputMesh& mesh) {
-  const std::size_t room = 65536 + 64 * (mesh.loaded.triangle_count() + mesh.loaded.vertex_count());
+/// By the library's own check, which knows the element, in a block of that many bytes; 0: enough.
+std::string first_defect(const std::string& path, const InputMesh& mesh, std::size_t bytes) {
+  const std::size_t enough = 65536 + 64 * (mesh.loaded.triangle_count() + mesh.loaded.vertex_count());
+  const std::size_t room = bytes != 0 ? bytes : enough;
   const std::unique_ptr<unsigned char[]> block(new unsigned char[room]);
   isolod::Arena arena(block.get(), room);
   isolod::Finding finding;
   const isolod::Status status = isolod::find_defect(isolod::Span<const std::uint32_t>(mesh.loaded.triangles),
                                                     mesh.loaded.positions, mesh.loaded.vertex_count(), finding, arena);
-  if (!status.is_ok()) fail_status("", status);
+  if (status == isolod::Status::out_of_memory) {
+    fail_status(path, isolod::Status(isolod::Status::out_of_memory, isolod::Element::byte, enough));
+  }
+  if (!status.is_ok()) fail_status(path, status);
   if (finding.defect == Defect::none) return "";
   return describe_finding(finding) + " [" + isolod::name(finding.defect) + "]";
 }
@@ -64,14 +68,15 @@ const CommandRule& validate_rule() {
       "Checked are: finite positions, three different corners, no duplicate triangle, at most two triangles an edge,\n"
       "one fan of triangles a vertex, one orientation, no triangle without area, no unused vertex.\n"
       "Vertices and triangles are counted from 0.",
-      {{"--quiet", nullptr, "say nothing where all is well"}}};
+      {{"--memory", "SIZE", "the block to check in, such as 64M: exactly that; chosen by itself when not given"},
+       {"--quiet", nullptr, "say nothing where all is well"}}};
   return rule;
 }
 
 int command_validate(const Arguments& arguments) {
   const std::string& path = arguments.operand(0);
   const InputMesh mesh = read_mesh_file(path);
-  std::string fault = first_defect(mesh);
+  std::string fault = first_defect(path, mesh, arguments.bytes("--memory", 0));
   if (fault.empty()) fault = first_fault(facts_of(mesh));
   if (!fault.empty()) throw Failure{exit_found, path + ": " + fault};
   if (!arguments.has("--quiet")) {

@@ -14,29 +14,28 @@ using isolod::Status;
 struct Meaning {
   Status::Code code;
   int exit_code;
-  const char* text;
 };
 
 // The numbers are a promise; the order is not.
 constexpr Meaning meanings[] = {
-    {Status::cancelled, 10, "cancelled"},
-    {Status::invalid_option, 11, "an option is out of its range"},
-    {Status::empty_mesh, 12, "no triangle with area is left"},
-    {Status::too_large, 13, "more elements than 32-bit indices can name"},
-    {Status::index_out_of_range, 14, "names a vertex that does not exist"},
-    {Status::position_not_finite, 15, "a coordinate is NaN or infinite"},
-    {Status::density_not_positive, 16, "the density is not a positive finite number"},
-    {Status::budget_too_small, 17, "too few vertices for the corners and the topology of this shape"},
-    {Status::out_of_memory, 18, "the memory block is too small"},
-    {Status::no_convergence, 19, "a bounded search ended without a usable result"},
-    {Status::sink_failed, 20, "the result could not be handed over"},
-    {Status::cannot_open, 21, "cannot be opened, read or written"},
-    {Status::unknown_format, 22, "unknown file type"},
-    {Status::syntax_error, 23, "breaks the rules of its format"},
-    {Status::truncated_file, 24, "the file ends before its contents do"},
-    {Status::unsupported_feature, 25, "valid, but of a kind that is not read or written here"},
-    {Status::invalid_result, 26, "the result breaks one of the library's own promises; please report it"},
-    {Status::not_admitted, 27, "what an option forces is not for a surface of this topology"},
+    {Status::cancelled, 10},
+    {Status::invalid_option, 11},
+    {Status::empty_mesh, 12},
+    {Status::too_large, 13},
+    {Status::index_out_of_range, 14},
+    {Status::position_not_finite, 15},
+    {Status::density_not_positive, 16},
+    {Status::budget_too_small, 17},
+    {Status::out_of_memory, 18},
+    {Status::no_convergence, 19},
+    {Status::sink_failed, 20},
+    {Status::cannot_open, 21},
+    {Status::unknown_format, 22},
+    {Status::syntax_error, 23},
+    {Status::truncated_file, 24},
+    {Status::unsupported_feature, 25},
+    {Status::invalid_result, 26},
+    {Status::not_admitted, 27},
 };
 
 const Meaning* meaning_of(Status::Code code) {
@@ -89,9 +88,7 @@ int exit_code(Status::Code code) {
 }
 
 std::string describe(const Status& status) {
-  const Meaning* meaning = meaning_of(status.code);
-  const std::string text = meaning != nullptr ? meaning->text : "failed";
-  return place_of(status) + text + remedy_of(status) + " [" + isolod::name(status.code) + "]";
+  return place_of(status) + isolod::message(status.code) + remedy_of(status) + " [" + isolod::name(status.code) + "]";
 }
 
 std::string exit_code_help() {
@@ -103,7 +100,8 @@ std::string exit_code_help() {
       "   3  a defect of this program\n";
   for (const Meaning& meaning : meanings) {
     char line[160];
-    std::snprintf(line, sizeof line, "  %2d  %-20s %s\n", meaning.exit_code, isolod::name(meaning.code), meaning.text);
+    std::snprintf(line, sizeof line, "  %2d  %-20s %s\n", meaning.exit_code, isolod::name(meaning.code),
+                  isolod::message(meaning.code));
     text += line;
   }
   return text;

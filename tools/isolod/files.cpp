@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "isolod/failure.h"
+#include "isolod/json.h"
 
 namespace tool {
 
@@ -146,6 +147,16 @@ isolod::WriteOptions write_options(const std::string& path, bool ascii) {
   if (options.format == isolod::FileFormat::unknown) fail_status(path, Status(Status::unknown_format));
   if (options.format == isolod::FileFormat::glb) fail_status(path, Status(Status::unsupported_feature));
   return options;
+}
+
+OptionRule hash_rule() {
+  return {"--hash", nullptr, "print the hash of the mesh's bits: the same on every machine, whatever the file type"};
+}
+
+void print_hash(const TriangleMesh& mesh, const std::string& path) {
+  const std::uint64_t hash =
+      isolod::hash_of({{mesh.positions.data(), mesh.positions.size()}, {mesh.triangles.data(), mesh.triangles.size()}});
+  std::printf("%s  %s\n", hex_digits(hash).c_str(), path.c_str());
 }
 
 void write_mesh_file(OutputFile& file, const isolod::WriteOptions& options, const TriangleMesh& mesh) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "isolod/arguments.h"
 #include "isolod/io.h"
 #include "isolod/output_file.h"
 #include "isolod/run.h"
@@ -40,6 +41,12 @@ void read_feature_file(const std::string& path, InputMesh& mesh);
 
 /// How to write under that name. Throws where no mesh could be written so: before the work, not after it.
 isolod::WriteOptions write_options(const std::string& path, bool ascii);
+
+/// What a command that makes a mesh accepts besides: `print_hash`.
+OptionRule hash_rule();
+
+/// A line "hash  path", as the programs that sum files print it.
+void print_hash(const TriangleMesh& mesh, const std::string& path);
 
 /// Writes and commits. The file is opened long before, so that a closed folder is known before the work.
 void write_mesh_file(OutputFile& file, const isolod::WriteOptions& options, const TriangleMesh& mesh);

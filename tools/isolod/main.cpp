@@ -4,6 +4,7 @@
 
 #include "isolod/commands.h"
 #include "isolod/failure.h"
+#include "isolod/remesh.h"
 
 namespace {
 
@@ -36,7 +37,7 @@ int run(int count, char** words) {
     return count > 1 ? exit_ok : exit_usage;
   }
   if (first == "--version") {
-    std::puts("isolod " ISOLOD_TOOL_VERSION);
+    std::printf("isolod " ISOLOD_TOOL_VERSION ", output version %u\n", unsigned{isolod::output_version()});
     return exit_ok;
   }
   std::vector<std::string> names;

@@ -87,8 +87,9 @@ std::vector<OptionRule> wish_rules() {
       {"--lloyd", "N", "iterations of the relaxation; 40"},
       {"--fit", nullptr, "vertices leave the surface where that lessens the distance; for few vertices"},
       {"--weld", nullptr, "merge vertices at exactly equal positions first"},
-      {"--memory", "SIZE", "the block to work in, such as 64M; chosen by itself when not given"},
+      {"--memory", "SIZE", "the block to work in, such as 64M: exactly that; chosen by itself when not given"},
       {"--ascii", nullptr, "write PLY or STL as text"},
+      hash_rule(),
       {"--quiet", nullptr, "no progress, no summary; errors only"}};
 }
 

@@ -106,6 +106,7 @@ std::string report_json(const RunNames& names, const isolod::MeshView& view, con
   const isolod::Status& status = outcome.status;
   JsonWriter json;
   json.add("program", "isolod " ISOLOD_TOOL_VERSION);
+  json.add("output_version", std::uint64_t{isolod::output_version()});
   json.add("input", names.input);
   json.add("input_vertices", wide(view.vertex_count));
   json.add("input_triangles", wide(view.triangle_count));

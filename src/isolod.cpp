@@ -1,6 +1,16 @@
 // The whole library as one translation unit: what a vendor compiles, with include/ and src/ on the include path.
+#include "base/config.h"
+
+// Under -ffp-contract=fast clang fuses products and sums against the pragma in base/config.h. It cannot where it has no
+// instruction for that. (On other processors than x86 that flag is left to `Remesher::begin`, which refuses to run.)
+#if defined(__clang__) && defined(__FMA__)
+#pragma clang attribute push(__attribute__((target("no-fma,no-fma4,no-avx512f"))), apply_to = function)
+#endif
+
 #include "base/arena.cpp"
+#include "base/check_arithmetic.cpp"
 #include "base/elementary.cpp"
+#include "base/environment.cpp"
 #include "base/fail.cpp"
 #include "base/hash.cpp"
 #include "base/predicates.cpp"
@@ -109,3 +119,7 @@
 #include "pipeline/stage_hashes.cpp"
 
 #include "c/isolod_c.cpp"
+
+#if defined(__clang__) && defined(__FMA__)
+#pragma clang attribute pop
+#endif

@@ -15,6 +15,7 @@
 
 #include "isolod/version.h"
 #include "support/checker.h"
+#include "support/golden.h"
 #include "support/stages.h"
 
 using namespace isolod;
@@ -35,24 +36,6 @@ std::string read(const std::string& file) {
   std::stringstream text;
   text << in.rdbuf();
   return text.str();
-}
-
-/// The first word of `found` that `wanted` has not at the same place, with its line; "" where they are equal.
-std::string first_difference(const std::string& wanted, const std::string& found) {
-  std::istringstream want(wanted), have(found);
-  std::string wanted_line, line;
-  for (int number = 1;; ++number) {
-    const bool more = static_cast<bool>(std::getline(have, line)),
-               expected = static_cast<bool>(std::getline(want, wanted_line));
-    if (!more && !expected) return "";
-    if (more && expected && line == wanted_line) continue;
-    std::istringstream want_words(expected ? wanted_line : ""), have_words(more ? line : "");
-    std::string begin, wanted_word, word;
-    have_words >> begin;
-    want_words >> wanted_word;
-    for (word = begin; word == wanted_word && have_words >> word;) want_words >> wanted_word;
-    return "line " + std::to_string(number) + " (" + begin + "): " + word + " instead of " + wanted_word;
-  }
 }
 
 const std::string version_mark = "# output version ";
@@ -111,56 +94,22 @@ std::string refusal(const Golden& old, const std::string& text, unsigned version
 /// Compares with the file, or writes it.
 void check_golden(const std::string& file, const std::string& found) {
   CAPTURE(file);
-  const Golden golden = parse(read(file));
+  const Golden kept = parse(read(file));
   if (updating()) {
-    REQUIRE(refusal(golden, found, ISOLOD_OUTPUT_VERSION) == "");
+    REQUIRE(refusal(kept, found, ISOLOD_OUTPUT_VERSION) == "");
     std::ofstream(directory + file, std::ios::binary) << found << version_mark << ISOLOD_OUTPUT_VERSION << "\n";
     MESSAGE("written: " << directory << file);
     return;
   }
-  CHECK(first_difference(golden.text, found) == "");
-  CHECK(golden.version == ISOLOD_OUTPUT_VERSION);  // else: ISOLOD_UPDATE_GOLDEN=1
+  CHECK(golden::first_difference(kept.text, found) == "");
+  CHECK(kept.version == ISOLOD_OUTPUT_VERSION);  // else: ISOLOD_UPDATE_GOLDEN=1
 }
 
-struct Case {
-  const char* name;
-  std::size_t triangles;
-  std::uint32_t vertices;
-  const char* note;  ///< what `change` does
-  void (*change)(Options&);
-};
-
-const Case cases[] = {
-    {"sphere", 1280, 500, "plain", [](Options&) {}},
-    {"sphere", 1280, 2000, "plain", [](Options&) {}},
-    {"head", 2000, 1000, "plain", [](Options&) {}},
-    {"head", 2000, 1000, "curvature,gamma=1.5,smoothing=3",
-     [](Options& o) { o.density = DensitySource::curvature, o.gamma = 1.5, o.smoothing_passes = 3; }},
-    {"bracket", 800, 1500, "angle=30", [](Options& o) { o.feature_angle = 30; }},
-    {"bracket", 800, 1500, "angle=30,paper-calibration,paper-weight",
-     [](Options& o) { o.feature_angle = 30, o.calibration = Calibration::paper, o.weight = LloydWeight::paper; }},
-    {"cube", 12, 700, "angle=30", [](Options& o) { o.feature_angle = 30; }},
-    {"cube", 12, 701, "angle=30,curvature",
-     [](Options& o) { o.feature_angle = 30, o.density = DensitySource::curvature; }},
-    {"plate3", 600, 900, "plain", [](Options&) {}},
-    {"lattice", 2000, 1200, "plain", [](Options&) {}},
-    {"cylinder_open", 500, 400, "plain", [](Options&) {}},
-};
-
-std::string golden_line(const Case& c) {
+std::string golden_line(const golden::Case& c) {
   const shapes::Shape shape = made(c.name, c.triangles);
-  Options options = support::with_vertices(c.vertices);
-  c.change(options);
-  const support::Run run = support::run(view_of(shape), options);
+  const support::Run run = support::run(view_of(shape), golden::options_of(c));
   CHECK(run.status.is_ok());
-  std::string line =
-      std::string(c.name) + "-" + std::to_string(c.triangles) + " V=" + std::to_string(c.vertices) + " " + c.note;
-  for (std::size_t i = 0; i < run.report.stage_count; ++i) {
-    char hash[32];
-    std::snprintf(hash, sizeof hash, "%016" PRIx64, run.report.stages[i].hash);
-    line += std::string(" ") + run.report.stages[i].name + "=" + hash;
-  }
-  return line + "\n";
+  return golden::line_of(c, run.report);
 }
 
 /// An OFF file; %.17g gives every bit of a double back.
@@ -184,13 +133,14 @@ std::string off(const shapes::Shape& mesh) {
 
 TEST_CASE("golden: every stage of every case gives the same bits") {
   std::string text;
-  for (const Case& c : cases) text += golden_line(c);
+  for (std::size_t i = 0; i < golden::case_count; ++i) text += golden_line(golden::cases[i]);
   check_golden("stages.txt", text);
 }
 
 TEST_CASE("golden: the made shapes have the same bits") {
   std::string text, before;
-  for (const Case& c : cases) {
+  for (std::size_t i = 0; i < golden::case_count; ++i) {
+    const golden::Case& c = golden::cases[i];
     if (c.name == before) continue;
     before = c.name;
     char line[100];
@@ -199,6 +149,15 @@ TEST_CASE("golden: the made shapes have the same bits") {
     text += line;
   }
   check_golden("shapes.txt", text);
+}
+
+TEST_CASE("golden: the first difference is named") {
+  const std::string wanted = "a x=1 y=2\nb x=3 y=4\n";
+  CHECK(golden::first_difference(wanted, wanted) == "");
+  CHECK(golden::first_difference(wanted, "a x=1 y=2\nb x=3 y=5\n") == "line 2 (b): y=5 instead of y=4");
+  CHECK(golden::first_difference(wanted, "a x=1\nb x=3 y=4\n") == "line 1 (a):  instead of y=2");
+  CHECK(golden::first_difference(wanted, "a x=1 y=2\n") == "line 2 ():  instead of b");
+  CHECK(golden::first_difference("a x=1 y=2\n", wanted) == "line 2 (b): b instead of ");
 }
 
 TEST_CASE("golden: two small meshes, number by number") {

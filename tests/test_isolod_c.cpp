@@ -168,7 +168,7 @@ TEST_CASE("isolod_c: defaults are those of C++, and each member that is changed 
 }
 
 TEST_CASE("isolod_c: codes and elements have the numbers of C++, and a name and a sentence each") {
-  for (std::int32_t code = ISOLOD_OK; code <= ISOLOD_NOT_ADMITTED; ++code) {
+  for (std::int32_t code = ISOLOD_OK; code <= ISOLOD_WRONG_ARITHMETIC; ++code) {
     CHECK(std::string(isolod_status_name(code)) == name(static_cast<Status::Code>(code)));
     CHECK(std::string(isolod_status_name(code)) != "unknown");
     CHECK(std::string(isolod_status_message(code)) != "failed");
@@ -181,7 +181,7 @@ TEST_CASE("isolod_c: codes and elements have the numbers of C++, and a name and 
                                                         {ISOLOD_INVALID_ARGUMENT, "invalid_argument"},
                                                         {ISOLOD_CAPACITY_TOO_SMALL, "capacity_too_small"}};
   for (const auto& [code, text] : named) CHECK(std::string(isolod_status_name(code)) == text);
-  for (const std::int32_t code : {-1, ISOLOD_NOT_ADMITTED + 1, 255, 256, 256 + ISOLOD_CANCELLED}) {
+  for (const std::int32_t code : {-1, ISOLOD_WRONG_ARITHMETIC + 1, 255, 256, 256 + ISOLOD_CANCELLED}) {
     CHECK(std::string(isolod_status_name(code)) == "unknown");
     CHECK(std::string(isolod_status_message(code)) == "failed");
   }

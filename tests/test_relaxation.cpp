@@ -34,7 +34,8 @@ struct Relaxed : support::Stitched {
     if (slides) {
       REQUIRE(sample_features_anew(s.surface, lines, {s.options.weight, true}, s.samples, block.arena).is_ok());
     }
-    const RelaxOptions options{s.options.weight, 1.8};
+    RelaxOptions options;
+    options.weight = s.options.weight;
     REQUIRE(relaxation.begin(s.surface, features(), mesh(), s.samples, options, block.arena).is_ok());
   }
 

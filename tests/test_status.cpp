@@ -35,6 +35,7 @@ const std::vector<std::pair<Status::Code, std::string>> codes = {
     ISOLOD_SPELLED(Status, unsupported_feature),
     ISOLOD_SPELLED(Status, invalid_result),
     ISOLOD_SPELLED(Status, not_admitted),
+    ISOLOD_SPELLED(Status, wrong_arithmetic),
 };
 
 const std::vector<std::pair<Element, std::string>> elements = {
@@ -46,6 +47,7 @@ const std::vector<std::pair<Element, std::string>> elements = {
     ISOLOD_SPELLED(Element, byte),
     ISOLOD_SPELLED(Element, option),
     {Element::count, "vertices"},
+    ISOLOD_SPELLED(Element, arithmetic),
 };
 
 /// Counts its calls, then answers.

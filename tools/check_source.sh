@@ -52,7 +52,7 @@ ban() {
 }
 
 word='(^|[^A-Za-z0-9_.>])'
-# Placement new on arena memory, `new (place) T`, is no heap; a real one would show among the object's symbols below.
+# Placement new on arena memory, `new (place) T`, is no heap; a real one would show in tools/port/check_symbols.sh.
 ban "no heap" "$word(malloc|calloc|realloc|free|alloca|aligned_alloc|posix_memalign) *\(|${word}new +[A-Za-z_:]|${word}delete( |\[)" \
   "= *delete;"
 ban "no exceptions, no RTTI" "$word(throw|try|catch|dynamic_cast|typeid)[ (;{<]"
@@ -125,19 +125,6 @@ output="$(sed -n 's/^#define ISOLOD_OUTPUT_VERSION \([0-9]*\)$/\1/p' include/iso
 grep -qE "^- Output ${output:-none}: [a-z]" README.md ||
   echo "README.md: no line '- Output $output: ...' in its change list" >"$work/found"
 verdict "the change list says why the output version is what it is" "$work/found"
-
-# What the compiled library asks of a system: a few memory functions. And it keeps no state.
-flags="-std=c++17 -O2 -fno-pie -fno-exceptions -fno-rtti -ffp-contract=off -fno-math-errno -Iinclude -Isrc"
-# shellcheck disable=SC2086  # a list of flags
-if ! "${CXX:-c++}" $flags -c src/isolod.cpp -o "$work/isolod.o" 2>"$work/found"; then
-  verdict "the unity file compiles" "$work/found"
-else
-  nm -u "$work/isolod.o" | awk '{ print $NF }' |
-    grep -vE '^(memcpy|memmove|memset|memcmp|_GLOBAL_OFFSET_TABLE_|__stack_chk_fail)$' >"$work/found"
-  verdict "the object asks the system for nothing but memory copies" "$work/found"
-  nm -C "$work/isolod.o" | grep -E '^[0-9a-f]+ [bBdDcCsS] ' >"$work/found"
-  verdict "the object keeps no state" "$work/found"
-fi
 
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -28,11 +28,12 @@ if ! cmake -S . -B "$out/database" -G Ninja -DISOLOD_TESTS=OFF -DCMAKE_EXPORT_CO
   exit 1
 fi
 
-# Headers are looked at through the sources that include them. The unity file only includes the others.
+# Headers are looked at through the sources that include them. The unity file only includes the others; what is built for
+# other machines is a project of its own.
 if [ $# -gt 0 ]; then
   printf '%s\n' "$@" | sort -u
 else
-  find src include tools \( -name '*.h' -o -name '*.cpp' \) ! -path src/isolod.cpp | sort
+  find src include tools \( -name '*.h' -o -name '*.cpp' \) ! -path src/isolod.cpp ! -path 'tools/port/*' | sort
 fi >"$out/files"
 grep '\.cpp$' "$out/files" >"$out/sources"
 

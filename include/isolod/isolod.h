@@ -32,5 +32,6 @@
 #include "isolod/mesh.h"
 #include "isolod/options.h"
 #include "isolod/remesh.h"
+#include "isolod/self_test.h"
 #include "isolod/status.h"
 #include "isolod/version.h"

@@ -77,8 +77,9 @@ enum isolod_status {
   ISOLOD_SYNTAX_ERROR = 14,
   ISOLOD_TRUNCATED_FILE = 15,
   ISOLOD_UNSUPPORTED_FEATURE = 16,
-  ISOLOD_INVALID_RESULT = 17,  ///< validation found a broken invariant: a defect of this library
-  ISOLOD_NOT_ADMITTED = 18,    ///< what an option forces is not for a surface of this topology
+  ISOLOD_INVALID_RESULT = 17,    ///< validation found a broken invariant: a defect of this library
+  ISOLOD_NOT_ADMITTED = 18,      ///< what an option forces is not for a surface of this topology
+  ISOLOD_WRONG_ARITHMETIC = 19,  ///< the library was compiled so that it does not compute the bits that others do
 
   ISOLOD_INVALID_ARGUMENT = 100,  ///< a pointer is null, or a struct was not filled by its `..._init`
   ISOLOD_CAPACITY_TOO_SMALL =
@@ -94,7 +95,8 @@ enum isolod_element {
   ISOLOD_LINE = 4,
   ISOLOD_BYTE = 5,
   ISOLOD_OPTION = 6,
-  ISOLOD_COUNT = 7
+  ISOLOD_COUNT = 7,
+  ISOLOD_ARITHMETIC = 8  ///< an `isolod::ArithmeticFault`: self_test.h
 };
 
 enum isolod_scalar_type { ISOLOD_FLOAT32 = 0, ISOLOD_FLOAT64 = 1 };

@@ -11,13 +11,14 @@ inline namespace v1 {
 /// The kind of thing that `Status::value` counts or names.
 enum class Element : std::uint8_t {
   none,
-  vertex,    ///< index in the caller's positions
-  triangle,  ///< index in the caller's triangles
-  edge,      ///< index in the caller's tagged edges
-  line,      ///< line of a text file, from 1
-  byte,      ///< offset in a binary file, or a count of bytes
-  option,    ///< ordinal of the offending member of `Options`
-  count,     ///< a number of vertices that would do
+  vertex,      ///< index in the caller's positions
+  triangle,    ///< index in the caller's triangles
+  edge,        ///< index in the caller's tagged edges
+  line,        ///< line of a text file, from 1
+  byte,        ///< offset in a binary file, or a count of bytes
+  option,      ///< ordinal of the offending member of `Options`
+  count,       ///< a number of vertices that would do
+  arithmetic,  ///< an `ArithmeticFault`
 };
 
 /// A result code with the element it concerns. Sixteen bytes, passed by value.
@@ -43,6 +44,7 @@ struct [[nodiscard]] Status {
     unsupported_feature,   ///< the file is valid but uses what is not read here
     invalid_result,        ///< validation found a broken invariant: a defect of this library
     not_admitted,          ///< what an option forces is not for a surface of this topology
+    wrong_arithmetic,      ///< this build or machine does not compute the bits that others do: see self_test.h
   };
 
   Code code = ok;

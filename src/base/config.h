@@ -12,6 +12,9 @@
 #if defined(__FAST_MATH__)
 #error "isolod: remove -ffast-math (or -Ofast): it changes results from machine to machine"
 #endif
+#if defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__)
+#error "isolod: remove -funsafe-math-optimizations, -fassociative-math and -freciprocal-math: they reorder arithmetic"
+#endif
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "isolod: remove -ffinite-math-only: it changes results from machine to machine"
 #endif
@@ -23,7 +26,8 @@ static_assert(sizeof(float) == 4 && FLT_MANT_DIG == 24, "isolod: float must be I
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #elif defined(__GNUC__)
-#pragma GCC optimize("fp-contract=off")
+// gcc 12 fuses where it vectorises (x86: vfmaddsub), also under -ffp-contract=off.
+#pragma GCC optimize("fp-contract=off", "no-tree-vectorize")
 #endif
 
 #if defined(__MINGW32__) && defined(__SSE2__)

@@ -43,6 +43,8 @@ const char* name(Status::Code code) {
       return "invalid_result";
     case Status::not_admitted:
       return "not_admitted";
+    case Status::wrong_arithmetic:
+      return "wrong_arithmetic";
   }
   return "unknown";
 }
@@ -87,6 +89,8 @@ const char* message(Status::Code code) {
       return "the result breaks one of the library's own promises; please report it";
     case Status::not_admitted:
       return "what an option forces is not for a surface of this topology";
+    case Status::wrong_arithmetic:
+      return "this program was compiled so that it does not compute the bits that others do";
   }
   return "failed";
 }
@@ -109,6 +113,8 @@ const char* name(Element element) {
       return "option";
     case Element::count:
       return "vertices";
+    case Element::arithmetic:
+      return "arithmetic";
   }
   return "";
 }

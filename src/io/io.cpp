@@ -1,6 +1,7 @@
 // The door of io.h: which format it is, and which reader reads it.
 #include "isolod/io.h"
 
+#include "base/environment.h"
 #include "io/readers.h"
 #include "io/text.h"
 
@@ -116,6 +117,8 @@ MeshView LoadedMesh::view() const {
 }
 
 Status read_mesh(Span<const unsigned char> file, FileFormat format, LoadedMesh& mesh, Arena& arena) {
+  FloatEnvironment environment;
+  const ArithmeticScope scope(environment);
   const ArenaMark mark = arena.mark();
   mesh = {};
   if (format == FileFormat::unknown) format = format_of_content(file);

@@ -4,6 +4,7 @@
 // vertex_indices`. STL: normals from the positions, 0 0 0 where a triangle has no area; binary in 32-bit floats.
 #include <cstring>
 
+#include "base/environment.h"
 #include "base/status.h"
 #include "base/vector.h"
 #include "io/number.h"
@@ -17,7 +18,8 @@ namespace {
 /// Collects bytes; remembers that the sink refused, so that only the end has to ask.
 class ByteWriter {
  public:
-  ByteWriter(const ByteSink& sink, bool big_endian) : sink_(sink), big_endian_(big_endian) {}
+  ByteWriter(const ByteSink& sink, FloatEnvironment& environment, bool big_endian)
+      : sink_(sink), environment_(environment), big_endian_(big_endian) {}
 
   void put(const char* text) {
     for (; *text != '\0'; ++text) put_byte(static_cast<unsigned char>(*text));
@@ -62,11 +64,15 @@ class ByteWriter {
     for (std::size_t i = 0; i < count; ++i) put_byte(static_cast<unsigned char>(text[i]));
   }
   void flush() {
-    if (count_ > 0 && !refused_) refused_ = !sink_.write(sink_.context, buffer_, count_);
+    if (count_ > 0 && !refused_) {
+      const CallbackScope scope(environment_);
+      refused_ = !sink_.write(sink_.context, buffer_, count_);
+    }
     count_ = 0;
   }
 
   const ByteSink& sink_;
+  FloatEnvironment& environment_;
   const bool big_endian_;
   bool refused_ = false;
   std::size_t count_ = 0;
@@ -213,8 +219,10 @@ Status write_mesh(const WriteOptions& options, Span<const double> positions, Spa
   if (is_stl && options.encoding == Encoding::big_endian) return fail(Status::invalid_option);
   if (sink.write == nullptr) return fail(Status::sink_failed);
   const WriteMesh mesh = {positions.first(positions.count / 3 * 3), triangles.first(triangles.count / 3 * 3)};
+  FloatEnvironment environment;
+  const ArithmeticScope scope(environment);
   ISOLOD_TRY(check_mesh(mesh, is_stl && !is_text ? double{FLT_MAX} : DBL_MAX));
-  ByteWriter out(sink, options.encoding == Encoding::big_endian);
+  ByteWriter out(sink, environment, options.encoding == Encoding::big_endian);
   if (format == FileFormat::obj) write_lines(mesh, out, "v ", "f", 1);
   if (format == FileFormat::off) write_off(mesh, out);
   if (format == FileFormat::ply) write_ply(mesh, options.encoding, out);

@@ -17,6 +17,8 @@ std::uint32_t finest_of(Span<const LodRequest> requests) {
 }
 
 Status check_coarser(Span<const Lod> coarser, Arena& arena) {
+  FloatEnvironment environment;
+  const ArithmeticScope scope(environment);
   for (const Lod& lod : coarser) {
     Finding finding;
     ISOLOD_TRY(find_defect(lod.triangles, lod.positions, lod.vertex_count, finding, arena));

@@ -287,14 +287,16 @@ std::size_t result_face_count(const State& s) {
 }
 
 /// Tells the caller of every iteration who asked for it; else nothing is measured.
-void relax_sites(const State& s, std::uint32_t chart, Lloyd& lloyd) {
+void relax_sites(State& s, std::uint32_t chart, Lloyd& lloyd) {
   lloyd.untangle();
   for (std::uint32_t i = 0; i < s.options.lloyd_iterations; ++i) {
     LloydReport report;
     report.chart = chart;
     report.iteration = i;
     lloyd.iterate(s.hooks.lloyd == nullptr ? nullptr : &report);
-    if (s.hooks.lloyd != nullptr) s.hooks.lloyd(s.hooks.context, report);
+    if (s.hooks.lloyd == nullptr) continue;
+    const CallbackScope scope(s.environment);
+    s.hooks.lloyd(s.hooks.context, report);
   }
 }
 

@@ -1,6 +1,7 @@
 // The state machine that runs the stages, and the plain call that runs it to its end.
 #include <new>
 
+#include "base/check_arithmetic.h"
 #include "pipeline/state.h"
 
 namespace isolod {
@@ -25,7 +26,11 @@ Status check_options(const Options& options) {
   return {};
 }
 
-double now(const Hooks& hooks) { return hooks.clock != nullptr ? hooks.clock(hooks.context) : 0; }
+double now(Remesher::State& s) {
+  if (s.hooks.clock == nullptr) return 0;
+  const CallbackScope scope(s.environment);
+  return s.hooks.clock(s.hooks.context);
+}
 
 double share_done(const Remesher::State& s) {
   double whole = 0, before = 0;
@@ -34,6 +39,15 @@ double share_done(const Remesher::State& s) {
     whole += stage_entries[i].share;
   }
   return s.stage == stage_entry_count ? 1 : before / whole;
+}
+
+/// Tells the caller how far the run is; cancelled where that wants it.
+Status show_progress(Remesher::State& s) {
+  if (s.hooks.progress == nullptr) return {};
+  const char* name = s.stage == stage_entry_count ? "done" : stage_entries[s.stage].name;
+  s.share_shown = greater(s.share_shown, share_done(s));
+  const CallbackScope scope(s.environment);
+  return s.hooks.progress(s.hooks.context, name, s.share_shown) ? Status() : fail(Status::cancelled);
 }
 
 /// A run that starts again from a finer first mesh reports each stage once, with the time of all attempts.
@@ -45,7 +59,7 @@ void close_stage(Remesher::State& s) {
   if (at == s.report.stage_count) ++s.report.stage_count;
   stage.name = stage_entries[s.stage].name;
   stage.hash = stage_entries[s.stage].hash(s);
-  stage.seconds = before + now(s.hooks) - s.stage_start;
+  stage.seconds = before + now(s) - s.stage_start;
   stage.arena_bytes = s.arena->high_water();
   s.arena->reset_high_water();
 }
@@ -53,7 +67,7 @@ void close_stage(Remesher::State& s) {
 /// One piece of the present stage.
 Status do_piece(Remesher::State& s, std::uint64_t& units) {
   if (!s.stage_begun) {
-    s.stage_start = now(s.hooks);
+    s.stage_start = now(s);
     s.next_stage = s.stage + 1;
   }
   bool done = false;
@@ -70,6 +84,9 @@ Status do_piece(Remesher::State& s, std::uint64_t& units) {
 }  // namespace
 
 Status Remesher::begin(const MeshView& view, const Options& options, const Hooks& hooks, Arena& arena) {
+  FloatEnvironment environment;
+  const ArithmeticScope scope(environment);
+  ISOLOD_TRY(check_arithmetic());
   ISOLOD_TRY(check_options(options));
   const ArenaMark mark = arena.mark();
   Span<State> room;
@@ -87,15 +104,13 @@ Status Remesher::begin(const MeshView& view, const Options& options, const Hooks
 Status Remesher::advance(std::uint64_t work) {
   if (state_ == nullptr) return fail(Status::invalid_option);  // `begin` failed or was never called
   State& s = *state_;
+  const ArithmeticScope scope(s.environment);
   for (std::uint64_t spent = 0; spent <= work && !done() && s.report.status.is_ok();) {
     std::uint64_t units = 1;
     s.report.status = do_piece(s, units);
     if (s.arena->high_water() > s.report.arena_bytes) s.report.arena_bytes = s.arena->high_water();
     spent += units;
-    if (!s.report.status.is_ok() || s.hooks.progress == nullptr) continue;
-    const char* name = done() ? "done" : stage_entries[s.stage].name;
-    s.share_shown = greater(s.share_shown, share_done(s));
-    if (!s.hooks.progress(s.hooks.context, name, s.share_shown)) s.report.status = fail(Status::cancelled);
+    if (s.report.status.is_ok()) s.report.status = show_progress(s);
   }
   if (s.report.status.is_ok() && done()) s.report.result_hash = s.report.stages[s.report.stage_count - 1].hash;
   return s.report.status;
@@ -196,6 +211,8 @@ Status remesh(const MeshView& view, const Options& options, const MeshSink& sink
 }
 
 std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options) {
+  FloatEnvironment environment;
+  const ArithmeticScope scope(environment);
   const std::size_t first = options.remove_seams ? most_first_count(triangle_count) : 0;
   const std::size_t samples = options.vertex_count > first ? options.vertex_count : first;
   // Refinement splits a triangle into pieces of about a wished edge length; long thin ones are the worst, up to about

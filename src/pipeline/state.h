@@ -1,6 +1,7 @@
 // What a run holds from one piece of work to the next. It lies in the arena.
 #pragma once
 
+#include "base/environment.h"
 #include "isolod/remesh.h"
 #include "mesh/repair.h"
 #include "pipeline/charting.h"
@@ -21,6 +22,7 @@ struct Remesher::State {
   MeshView view;
   Options options;
   Hooks hooks;
+  FloatEnvironment environment;  ///< the caller's, while a piece of work is done
   Arena* arena = nullptr;
   ArenaMark mark;
   Report report;
@@ -72,6 +74,7 @@ struct Remesher::State {
 
 /// Tells a sink what will come, then gives it the mesh; sink_failed where a callback says so.
 Status announce(const ResultMesh& mesh, const MeshSink& sink);
+/// Gives a mesh to a sink, in the caller's floating-point mode; sink_failed where a callback says so.
 Status deliver(const ResultMesh& mesh, const MeshSink& sink);
 
 /// A stage of the run: its name and its work, piece by piece. `units` is what the piece cost.

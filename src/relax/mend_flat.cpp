@@ -76,8 +76,8 @@ void mend(const Surface& surface, Triangulation& mesh, Samples& samples, FaceId 
 }
 
 bool has_no_area(const Surface& surface, const Halfedges& mesh, const Samples& samples, FaceId f) {
-  constexpr double least_height = 1e-5;
-  return !(relative_height(surface, mesh, samples, f) > least_height);
+  constexpr double least_face_height = 1e-5;
+  return !(relative_height(surface, mesh, samples, f) > least_face_height);
 }
 
 }  // namespace

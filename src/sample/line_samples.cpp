@@ -212,7 +212,7 @@ Status sample_lines(const Surface& surface, const Backbones& backbones, double l
     }
     total = diffusion.run(low);
   }
-  ISOLOD_TRY(arena.result(total, samples.place));
+  ISOLOD_TRY(arena.result(static_cast<std::size_t>(total), samples.place));
   std::uint32_t filled = 0;
   for (std::size_t b = 0; b < wishes.count; ++b) {
     const std::uint32_t count = wishes[b].granted - (wishes[b].ends.first == UINT32_MAX ? 0u : 1u);

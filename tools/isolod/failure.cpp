@@ -4,6 +4,8 @@
 #include <exception>
 #include <new>
 
+#include "isolod/self_test.h"
+
 namespace tool {
 
 namespace {
@@ -36,6 +38,7 @@ constexpr Meaning meanings[] = {
     {Status::unsupported_feature, 25},
     {Status::invalid_result, 26},
     {Status::not_admitted, 27},
+    {Status::wrong_arithmetic, 28},
 };
 
 const Meaning* meaning_of(Status::Code code) {
@@ -75,6 +78,9 @@ std::string remedy_of(const Status& status) {
     return ": --memory " + std::to_string(status.value) + " would do";
   }
   if (status.element == Element::count) return ": " + std::to_string(status.value) + " vertices work";
+  if (status.element == Element::arithmetic) {
+    return std::string(": ") + isolod::name(static_cast<isolod::ArithmeticFault>(status.value));
+  }
   if (status.code == Status::unknown_format) return ": use .obj, .off, .ply, .stl or (to read) .glb";
   return "";
 }

@@ -114,6 +114,7 @@
 #include "pipeline/levels.cpp"
 #include "pipeline/lods.cpp"
 #include "pipeline/make_atlas.cpp"
+#include "pipeline/memory_plan.cpp"
 #include "pipeline/remesher.cpp"
 #include "pipeline/single_chart.cpp"
 #include "pipeline/stage_hashes.cpp"

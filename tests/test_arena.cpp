@@ -50,3 +50,29 @@ TEST_CASE("arena: a misaligned or useless block is handled") {
   CHECK(nothing.scratch(1, piece) == Status::out_of_memory);
   CHECK(shifted.scratch(SIZE_MAX, piece) == Status::out_of_memory);
 }
+
+TEST_CASE("arena: results that are still needed are packed in their order, with the room that they ask for") {
+  alignas(16) unsigned char block[512];
+  Arena arena(block, sizeof block);
+  Span<int> before, gone, first, second, behind;
+  CHECK(arena.result(3, before).is_ok());
+  const ArenaMark mark = arena.mark();
+  CHECK(arena.result(7, gone).is_ok());
+  CHECK(arena.result(5, first).is_ok());
+  CHECK(arena.result(9, second).is_ok());
+  CHECK(arena.result(20, behind).is_ok());
+  before[2] = 77;
+  for (int i = 0; i < 5; ++i) first[i] = i;
+  for (int i = 0; i < 9; ++i) second[i] = 100 + i;
+  ArenaMark to = mark;
+  arena.move_down(first, 7, to);
+  arena.move_down(second, 9, to);
+  arena.rewind_results(to);
+  CHECK(arena.used() == 16 + 32 + 48);
+  CHECK(before[2] == 77);
+  CHECK(first.count == 5);
+  CHECK(first.data == before.data + 4);
+  CHECK(second.data == first.data + 8);
+  for (int i = 0; i < 5; ++i) CHECK(first[i] == i);
+  for (int i = 0; i < 9; ++i) CHECK(second[i] == 100 + i);
+}

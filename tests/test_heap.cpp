@@ -74,3 +74,20 @@ TEST_CASE("heap: any arena does or fails cleanly") {
   }
   CHECK(enough);
 }
+
+TEST_CASE("heap: keys may lie in the caller's array, which then holds the last key of each element") {
+  support::Block block(1 << 10);
+  std::vector<double> keys(3, -1);
+  IndexedHeap heap;
+  REQUIRE(heap.begin(Span<double>(keys.data(), keys.size()), block.arena).is_ok());
+  CHECK(block.arena.used() < IndexedHeap::bytes(3));
+  heap.push(2, 5);
+  heap.push(0, 4);
+  heap.push(2, 3);
+  heap.push(2, 6);  // ignored
+  CHECK(keys[2] == 3);
+  CHECK(keys[1] == -1);
+  CHECK(heap.pop().element == 2);
+  CHECK(heap.pop().key == 4);
+  CHECK(heap.empty());
+}

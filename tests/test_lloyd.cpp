@@ -233,7 +233,7 @@ TEST_CASE("lloyd: with exact centroids the energy never rises on maps of strong 
     double least = 1e300, most = 0;
     for (FaceId f : Ids<FaceId>(piece.surface.mesh.face_count())) {
       Vec2f p[3];
-      for (std::uint32_t k = 0; k < 3; ++k) p[k] = sampled.uv[halfedge(f, k)];
+      for (std::uint32_t k = 0; k < 3; ++k) p[k] = sampled.uv.rounded[halfedge(f, k)];
       const double stretch =
           face_area(piece.surface, f) / (0.5 * cross(widen(p[1]) - widen(p[0]), widen(p[2]) - widen(p[0])));
       least = std::min(least, stretch), most = std::max(most, stretch);

@@ -18,7 +18,8 @@ namespace {
 
 struct Made {
   Atlas atlas;
-  Span<Vec2f> uv;
+  ChartMaps maps;
+  std::vector<Vec2> uv;  // per halfedge
 };
 
 AtlasOptions options_for(const Piece& piece, std::uint32_t vertex_count) {
@@ -33,7 +34,7 @@ Status run(Surface& surface, const AtlasOptions& options, Made& made, Arena& are
   MakeAtlas stage;
   Status status = stage.begin(surface, options, arena);
   while (status.is_ok() && !stage.done()) status = stage.step(arena);
-  return status.is_ok() ? stage.finish(surface, made.atlas, made.uv, arena) : status;
+  return status.is_ok() ? stage.finish(surface, made.atlas, made.maps, arena) : status;
 }
 
 Made make(Piece& piece, const AtlasOptions& options) {
@@ -41,6 +42,8 @@ Made make(Piece& piece, const AtlasOptions& options) {
   const ArenaMark mark = piece.block.arena.mark();
   REQUIRE(run(piece.surface, options, made, piece.block.arena).is_ok());
   CHECK(piece.block.arena.mark().back == mark.back);
+  CHECK(made.atlas.place.empty());
+  made.uv = support::map_by_halfedge(piece.surface, made.atlas, made.maps, piece.block.arena);
   return made;
 }
 
@@ -99,7 +102,7 @@ void check_map(const Piece& piece, const Made& made, std::size_t chart, double g
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     Vec2 corner[3];
     for (std::uint32_t k = 0; k < 3; ++k) {
-      corner[k] = widen(made.uv[halfedge(faces[i], k)]);
+      corner[k] = made.uv[halfedge(faces[i], k).value];
       const auto known = place.insert({fan[3 * i + k], corner[k]});
       REQUIRE(distance(known.first->second, corner[k]) == 0);
     }
@@ -179,9 +182,9 @@ TEST_CASE("make_atlas: two runs give the same bits, and scaling by a power of tw
     REQUIRE(a.atlas.chart_of_face[f] == b.atlas.chart_of_face[f]);
     REQUIRE(a.atlas.chart_of_face[f] == c.atlas.chart_of_face[f]);
   }
-  for (std::size_t h = 0; h < a.uv.count; ++h) {
+  for (std::size_t h = 0; h < a.uv.size(); ++h) {
     REQUIRE((a.uv[h].x == b.uv[h].x && a.uv[h].y == b.uv[h].y));
-    REQUIRE((a.uv[h].x == c.uv[h].x * 0x1p30f && a.uv[h].y == c.uv[h].y * 0x1p30f));
+    REQUIRE((a.uv[h].x == c.uv[h].x * 0x1p30 && a.uv[h].y == c.uv[h].y * 0x1p30));
   }
 }
 

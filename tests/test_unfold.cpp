@@ -1,6 +1,8 @@
 // Samples in folds taken out and put in again: count and topology stay, those that are named go, held ones never.
 #include "relax/unfold.h"
 
+#include "relax/drop_dead.h"
+#include "relax/insert.h"
 #include "support/meshed.h"
 
 using namespace isolod;
@@ -25,7 +27,11 @@ double largest_face(const Meshed& m) {
 void unfold_all(Meshed& m, const std::vector<std::uint8_t>& is_bent) {
   Arena& arena = m.piece.block.arena;
   const std::size_t back = arena.mark().back;
-  REQUIRE(unfold(m.piece.surface, {is_bent.data(), is_bent.size()}, m.mesh, m.samples, arena).is_ok());
+  const std::size_t count = m.samples.count();
+  take_out_folded(m.piece.surface, {is_bent.data(), is_bent.size()}, m.mesh, m.samples);
+  REQUIRE(drop_dead_samples(m.mesh, m.samples, arena).is_ok());
+  const std::uint32_t gone = static_cast<std::uint32_t>(count - m.samples.count());
+  REQUIRE(insert_where_sparse(m.piece.surface, gone, m.mesh, m.samples, arena).is_ok());
   CHECK(arena.mark().back == back);
 }
 

@@ -204,6 +204,13 @@ runs "the number that is named works" 0 "$isolod" remesh bracket.off --vertices 
 refuses "too little memory" 18 "--memory" "$isolod" remesh torus.off --vertices 700 --memory 64K -o y.off
 refuses "one less does not" 17 "vertices work" "$isolod" remesh bracket.off --vertices $((${works:-1} - 1)) --features 40 -o y.off
 holds "a refused run writes nothing" test ! -e y.off
+runs "a plan" 0 "$isolod" plan torus.off --vertices 700
+planned="$(sed -n 's/^block *//p' output.txt)"
+runs "a plan is enough" 0 "$isolod" remesh torus.off --vertices 700 --memory "$planned" -o y.off
+runs "a plan for levels" 0 "$isolod" plan torus.off --vertices 700,50
+planned="$(sed -n 's/^block *//p' output.txt)"
+runs "a plan for levels is enough" 0 "$isolod" lods torus.off --vertices 700,50 --memory "$planned" -o planned.obj
+refuses "a plan without vertices" 2 "--vertices" "$isolod" plan torus.off
 runs "memory as said" 0 "$isolod" remesh torus.off --vertices 700 --memory 256M --report run.json -o y.off
 holds "the block is exactly that" grep -Eq '"block_bytes": 268435456,?$' run.json
 refuses "too little memory again" 18 "--memory" "$isolod" remesh torus.off --vertices 700 --memory 200K -o x.off

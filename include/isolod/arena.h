@@ -68,6 +68,15 @@ class Arena {
   ISOLOD_API void rewind_results(ArenaMark mark);
   ISOLOD_API void rewind_scratch(ArenaMark mark);
 
+  /// Moves a result down to `to`, which must not lie behind it, and `to` behind its new place; it keeps `room` elements
+  /// of room, at least as many as it has. So results that are still needed are packed, in the order in which they lie;
+  /// `rewind_results` to where `to` is at the end gives back what lies behind them.
+  template <class T>
+  void move_down(Span<T>& span, std::size_t room, ArenaMark& to) {
+    static_assert(std::is_trivially_copyable_v<T>, "the arena moves bytes");
+    span.data = static_cast<T*>(move_bytes(span.data, span.count * sizeof(T), room * sizeof(T), to));
+  }
+
   std::size_t capacity() const { return capacity_; }
   std::size_t used() const { return front_ + back_; }
   std::size_t free_bytes() const { return capacity_ - front_ - back_; }
@@ -86,6 +95,7 @@ class Arena {
     out = status.is_ok() ? Span<T>(static_cast<T*>(piece), count) : Span<T>();
     return status;
   }
+  ISOLOD_API void* move_bytes(const void* from, std::size_t bytes, std::size_t room, ArenaMark& to);
   ISOLOD_API Status take(std::size_t count, std::size_t size, bool at_front, void*& piece);
 
   unsigned char* block_ = nullptr;

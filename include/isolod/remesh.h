@@ -152,6 +152,29 @@ struct LodRequest {
 ISOLOD_API Status build_lods(const MeshView& view, const Options& options, Span<const LodRequest> requests,
                              Report* report, Arena& arena, const Hooks& hooks = {});
 
+/// What a run needs of the arena, stage by stage.
+struct MemoryPlan {
+  static constexpr std::size_t stage_capacity = 24;
+  struct Stage {
+    const char* name = nullptr;  ///< as in `Report::stages`
+    std::size_t bytes = 0;       ///< that are in use at most while it runs
+  };
+
+  Stage stages[stage_capacity];
+  std::size_t stage_count = 0;
+  std::size_t bytes = 0;  ///< of a block that is enough, wherever it begins: a little more than the largest stage
+};
+
+/// Says what `remesh` will need for this mesh. The surface is analysed and laid into the plane for it, in `arena`,
+/// which is back where it was afterwards: what that takes is never more than the run itself. About a tenth of a run's
+/// time. Fails as `remesh` does where it gets no further than that; with out_of_memory, where `arena` is too small even
+/// for this, and a number from the counts alone.
+ISOLOD_API Status plan(const MeshView& view, const Options& options, MemoryPlan& plan, Arena& arena);
+
+/// The same for levels of detail at once, as `build_lods` makes them.
+ISOLOD_API Status plan(const MeshView& view, const Options& options, Span<const LodRequest> requests, MemoryPlan& plan,
+                       Arena& arena);
+
 /// Bytes of arena that are enough for any mesh of these counts.
 ISOLOD_API std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count, const Options& options);
 

@@ -20,6 +20,15 @@ Status list_charts(std::uint32_t chart_count, Atlas& atlas, Arena& arena) {
   return {};
 }
 
+Status index_places(Atlas& atlas, Arena& arena) {
+  ISOLOD_TRY(arena.result(atlas.faces.count, atlas.place));
+  for (std::uint32_t i = 0; i < atlas.faces.count; ++i) {
+    const FaceId f = atlas.faces[i];
+    atlas.place[f] = i - atlas.start[atlas.chart_of_face[f]];
+  }
+  return {};
+}
+
 namespace {
 
 /// What a seam inside a chart is.

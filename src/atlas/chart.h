@@ -26,6 +26,9 @@ struct Atlas {
 /// are given, one entry a face; `start` is allocated as a result. O(n) time, 4 bytes a face of scratch, given back.
 Status list_charts(std::uint32_t chart_count, Atlas& atlas, Arena& arena);
 
+/// Allocates `place` as a result and fills it from the rest. O(n) time.
+Status index_places(Atlas& atlas, Arena& arena);
+
 struct Chart {
   Span<const FaceId> faces;  ///< per local face: the surface's
   Halfedges mesh;            ///< local; a side towards another chart has no twin

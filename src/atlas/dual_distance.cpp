@@ -23,9 +23,15 @@ Status DualDistance::begin(const Surface& surface, double line_rate, Lines lines
   lines_ = lines;
   sweep_ = {};
   ISOLOD_TRY(arena.scratch(surface.mesh.halfedge_count(), cost_));
-  ISOLOD_TRY(heap_.begin(surface.mesh.face_count(), arena));
-  ISOLOD_TRY(arena.scratch(surface.mesh.face_count(), distance_));
-  ISOLOD_TRY(arena.scratch(surface.mesh.face_count(), label_));
+  behind_costs_ = arena.mark();
+  return open(arena);
+}
+
+Status DualDistance::open(Arena& arena) {
+  const std::size_t faces = surface_->mesh.face_count();
+  ISOLOD_TRY(arena.scratch(faces, distance_));
+  ISOLOD_TRY(heap_.begin(distance_, arena));
+  ISOLOD_TRY(arena.scratch(faces, label_));
   clear();
   return {};
 }
@@ -61,7 +67,6 @@ void DualDistance::clear(Span<const FaceId> faces) {
 }
 
 void DualDistance::plant(FaceId seed, std::uint32_t label, Span<const std::uint32_t> region) {
-  distance_[seed] = 0;
   label_[seed] = label;
   spreading_ = label;
   region_ = region;
@@ -82,7 +87,6 @@ bool DualDistance::grow_on() {
       // At a tie the new label wins: a face whose way leads over one that has just changed hands must follow it, also
       // where rounding has made its own distance no smaller, or its region would be torn.
       if (!(d < distance_[g]) && !(d == distance_[g] && label_[g] != spreading_)) continue;
-      distance_[g] = d;
       label_[g] = spreading_;
       heap_.push(g.value, d);
     }
@@ -99,7 +103,6 @@ void DualDistance::spread(FaceId seed, std::uint32_t label, Span<const std::uint
 void DualDistance::grow(Span<const FaceId> core, double limit, Span<FaceId>& reached) {
   std::size_t count = 0;
   for (FaceId f : core) {
-    distance_[f] = 0;
     reached[count++] = f;
     heap_.push(f.value, 0);
   }
@@ -112,7 +115,6 @@ void DualDistance::grow(Span<const FaceId> core, double limit, Span<FaceId>& rea
       const double d = entry.key + static_cast<double>(cost_[h]);
       if (!(d < distance_[g]) || d > limit) continue;
       if (distance_[g] == unreached) reached[count++] = g;
-      distance_[g] = d;
       heap_.push(g.value, d);
     }
   }

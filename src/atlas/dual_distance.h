@@ -24,8 +24,12 @@ Vec3 face_centre(const Surface& surface, FaceId f);
 /// that spread later, other ties to the lower index.
 class DualDistance {
  public:
-  /// 36 bytes a face of scratch. `fill_costs` must have come to its end before anything else is asked.
+  /// 12 bytes a face of scratch, and `open`. `fill_costs` must have come to its end before anything else is asked.
   Status begin(const Surface& surface, double line_rate, Lines lines, Arena& arena);
+  /// What is known of distances, 20 bytes a face of scratch, can be given back while it is not needed, with all scratch
+  /// above it, and taken again: then nothing is known.
+  Status open(Arena& arena);
+  void close(Arena& arena) const { arena.rewind_scratch(behind_costs_); }
   /// A piece of the costs of steps; true when all are known.
   bool fill_costs();
 
@@ -55,9 +59,10 @@ class DualDistance {
   double line_rate_ = 0;
   Lines lines_ = Lines::dear;
   Sweep sweep_;
+  ArenaMark behind_costs_;
   Span<float> cost_;  // per halfedge: of the step over it, rounded
   IndexedHeap heap_;
-  Span<double> distance_;
+  Span<double> distance_;  // also the keys of the heap
   Span<std::uint32_t> label_;
   std::uint32_t spreading_ = 0;       // the label that is planted
   Span<const std::uint32_t> region_;  // where it may spread

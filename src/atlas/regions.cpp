@@ -25,7 +25,7 @@ Status Regions::step(Arena& arena) {
   arena.rewind_scratch(mark_);
   next_label_ = partition_.region_count();
   ISOLOD_TRY(order_by_region(label_, next_label_, order_, arena));
-  distances_.clear();
+  distances_.close(arena);
   ready_ = true;
   find_end();
   return {};
@@ -57,6 +57,7 @@ Status Regions::split(Arena& arena) {
   const ScratchScope scope(arena);
   Span<FaceId> faces = order_.slice(position_, end_ - position_), moved;
   ISOLOD_TRY(arena.scratch(faces.count, moved));
+  ISOLOD_TRY(distances_.open(arena));
   const std::uint32_t old_label = label_[faces[0u]];
   FaceId ends[2];
   find_far_faces(faces, ends);

@@ -8,7 +8,8 @@ inline namespace v1 {
 
 class Regions {
  public:
-  /// `label` and `order` are given, one entry a face, and stay the caller's. 40 bytes a face of scratch.
+  /// `label` and `order` are given, one entry a face, and stay the caller's. 36 bytes a face of scratch, of which 12
+  /// stay once `ready()`.
   Status begin(const Surface& surface, const PartitionOptions& options, Span<std::uint32_t> label, Span<FaceId> order,
                Arena& arena);
   /// A piece of the partition, until `ready()`. Scratch of its own is given back at the end.
@@ -21,8 +22,8 @@ class Regions {
   /// The faces of the region that is next. Only once `ready()`, as all below.
   Span<const FaceId> front() const { return order_.slice(position_, end_ - position_); }
   void take();
-  /// Splits the region that is next in two connected parts; the one that keeps the label is next. 4 bytes a face of the
-  /// region of scratch, given back.
+  /// Splits the region that is next in two connected parts; the one that keeps the label is next. 20 bytes a face and
+  /// 4 a face of the region of scratch, given back.
   Status split(Arena& arena);
 
   DualDistance& distances() { return distances_; }

@@ -1,5 +1,7 @@
 #include "isolod/arena.h"
 
+#include <cstring>
+
 #include "base/status.h"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -24,6 +26,8 @@ inline namespace v1 {
 
 namespace {
 constexpr std::size_t alignment = 16;
+
+std::size_t aligned(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
 }
 
 Arena::Arena(void* block, std::size_t bytes) {
@@ -38,7 +42,7 @@ Arena::Arena(void* block, std::size_t bytes) {
 Status Arena::take(std::size_t count, std::size_t size, bool at_front, void*& piece) {
   constexpr std::size_t most = SIZE_MAX / 2;
   if (count > most / size) return fail(Status::out_of_memory, Element::byte, most);
-  const std::size_t bytes = (count * size + alignment - 1) / alignment * alignment;
+  const std::size_t bytes = aligned(count * size);
   if (bytes > free_bytes()) return fail(Status::out_of_memory, Element::byte, used() + bytes + alignment);
   if (at_front) {
     piece = block_ + front_;
@@ -50,6 +54,15 @@ Status Arena::take(std::size_t count, std::size_t size, bool at_front, void*& pi
   ISOLOD_UNPOISON(piece, bytes);
   if (used() > high_water_) high_water_ = used();
   return {};
+}
+
+void* Arena::move_bytes(const void* from, std::size_t bytes, std::size_t room, ArenaMark& to) {
+  unsigned char* const place = block_ + to.front;
+  ISOLOD_ASSERT(bytes <= room && (bytes == 0 || place <= from));
+  if (bytes > 0) std::memmove(place, from, bytes);
+  to.front += aligned(room);
+  ISOLOD_ASSERT(to.front <= front_);
+  return place;
 }
 
 void Arena::rewind_results(ArenaMark mark) {

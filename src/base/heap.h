@@ -1,6 +1,7 @@
 // A binary heap of element indices with keys that can fall: Dijkstra's queue.
 #pragma once
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 #include "isolod/arena.h"
 
@@ -10,9 +11,21 @@ inline namespace v1 {
 /// Holds each element below `capacity` at most once. Equal keys leave in the order of their index.
 class IndexedHeap {
  public:
+  /// What `begin` takes of scratch, keys included.
+  static constexpr std::size_t bytes(std::size_t capacity) {
+    return array_bytes<double>(capacity) + 2 * array_bytes<std::uint32_t>(capacity);
+  }
+
   Status begin(std::size_t capacity, Arena& arena) {
+    Span<double> key;
+    ISOLOD_TRY(arena.scratch(capacity, key));
+    return begin(key, arena);
+  }
+  /// With keys in the caller's array, which nothing but `push` changes for an element that is in the heap.
+  Status begin(Span<double> key, Arena& arena) {
+    const std::size_t capacity = key.count;
     size_ = 0;
-    ISOLOD_TRY(arena.scratch(capacity, key_));
+    key_ = key;
     ISOLOD_TRY(arena.scratch(capacity, element_));
     ISOLOD_TRY(arena.scratch(capacity, place_));
     for (std::uint32_t& p : place_) p = absent;

@@ -215,6 +215,7 @@ Status Repair::finish(RepairedMesh& out, RepairReport& report, Arena& arena) {
   const ArenaMark results = arena.mark();
   RepairedMesh mesh;
   Status status = number_vertices(mesh.source_vertex, arena);
+  mesh.behind_vertices = arena.mark();
   arena.rewind_scratch(before_links_);
   if (status.is_ok()) status = write_triangles(mesh, arena);
   arena.rewind_scratch(start_);

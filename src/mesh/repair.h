@@ -52,6 +52,7 @@ struct RepairedMesh {
   Span<VertexId> triangles;             ///< 3 a face, indices into the new vertices
   Span<std::uint32_t> source_vertex;    ///< per new vertex: the caller's vertex whose position it has
   Span<std::uint32_t> source_triangle;  ///< per face: the caller's triangle
+  ArenaMark behind_vertices;            ///< `source_vertex` lies before it among the results, the others behind it
 };
 
 /// The stage that can stop and go on: `begin`, then `step` until `done`, then `finish`. Its scratch lies in the arena

@@ -1,5 +1,6 @@
 #include "mesh/triangulation.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 
 namespace isolod {
@@ -53,6 +54,14 @@ Status reserve(Triangulation& t, std::size_t vertex_capacity, std::size_t face_c
   t.mesh.origin.count = t.mesh.twin.count = t.fixed.count = t.mesh.outgoing.count = 0;
   return {};
 }
+
+std::size_t mesh_bytes(std::size_t vertex_capacity, std::size_t face_capacity) {
+  const std::size_t halfedges = 3 * face_capacity;
+  return array_bytes<VertexId>(halfedges) + array_bytes<HalfedgeId>(halfedges) + array_bytes<std::uint8_t>(halfedges) +
+         array_bytes<HalfedgeId>(vertex_capacity);
+}
+
+std::size_t compact_bytes(std::size_t face_count) { return array_bytes<std::uint32_t>(face_count); }
 
 bool are_adjacent(const Halfedges& mesh, VertexId a, VertexId b) { return !find_edge(mesh, a, b).is_none(); }
 

@@ -30,6 +30,11 @@ void visit_line_neighbours(const Triangulation& t, VertexId v, Visit visit) {
 /// Room for `vertex_capacity` vertices and `face_capacity` faces in scratch; empty. 30 bytes a face.
 Status reserve(Triangulation& t, std::size_t vertex_capacity, std::size_t face_capacity, Arena& arena);
 
+/// What arrays with this room take, as results or scratch.
+std::size_t mesh_bytes(std::size_t vertex_capacity, std::size_t face_capacity);
+/// The scratch of `compact`.
+std::size_t compact_bytes(std::size_t face_count);
+
 /// Whether an edge joins a and b, in either direction. O(valence).
 bool are_adjacent(const Halfedges& mesh, VertexId a, VertexId b);
 

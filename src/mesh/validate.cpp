@@ -1,5 +1,6 @@
 #include "mesh/validate.h"
 
+#include "base/array_bytes.h"
 #include "base/sort.h"
 #include "base/status.h"
 #include "mesh/collinear.h"
@@ -278,6 +279,11 @@ void find_halfedge_defect(const Halfedges& mesh, Finding& finding) {
   if (finding.defect == Defect::none) finding = check.check_outgoing();
   if (finding.defect == Defect::none) finding = check.check_fans();
   if (finding.defect == Defect::none) finding = check.check_use();
+}
+
+std::size_t find_defect_bytes(std::size_t vertex_count, std::size_t face_count) {
+  return array_bytes<HalfedgeId>(3 * face_count) + array_bytes<std::uint32_t>(vertex_count + 1) +
+         most_of(array_bytes<HalfedgeId>(3 * face_count), array_bytes<HalfedgeId>(vertex_count));
 }
 
 Status measure_topology(const Halfedges& mesh, Topology& topology, Arena& arena) {

@@ -10,6 +10,9 @@
 namespace isolod {
 inline namespace v1 {
 
+/// The scratch of `find_defect`.
+std::size_t find_defect_bytes(std::size_t vertex_count, std::size_t face_count);
+
 /// Broken rules. The comment says what `Finding::element` is.
 enum class Defect : std::uint8_t {
   none,

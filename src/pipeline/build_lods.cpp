@@ -1,6 +1,6 @@
 // The call that makes several levels of detail at once.
 #include "mesh/validate.h"
-#include "pipeline/state.h"
+#include "pipeline/memory_plan.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -14,6 +14,21 @@ std::uint32_t finest_of(Span<const LodRequest> requests) {
     if (requests[i].vertex_count > requests[finest].vertex_count) finest = i;
   }
   return finest;
+}
+
+/// All but the finest, in the order of the requests.
+void list_coarser(Span<const LodRequest> requests, std::uint32_t finest, Span<Lod> coarser) {
+  for (std::uint32_t i = 0; i < requests.count; ++i) {
+    if (i != finest) coarser[i < finest ? i : i - 1] = {requests[i].vertex_count, false, {}, {}, 0};
+  }
+}
+
+Status check_requests(const Options& options, Span<const LodRequest> requests) {
+  if (requests.empty() || !options.remove_seams) return fail(Status::invalid_option, Element::option);
+  for (const LodRequest& request : requests) {
+    if (request.vertex_count == 0) return fail(Status::invalid_option, Element::option);
+  }
+  return {};
 }
 
 Status check_coarser(Span<const Lod> coarser, Arena& arena) {
@@ -43,10 +58,7 @@ Status deliver_all(Span<const LodRequest> requests, std::uint32_t finest, const 
 
 Status build_lods(const MeshView& view, const Options& options, Span<const LodRequest> requests, Report* report,
                   Arena& arena, const Hooks& hooks) {
-  if (requests.empty() || !options.remove_seams) return fail(Status::invalid_option, Element::option);
-  for (const LodRequest& request : requests) {
-    if (request.vertex_count == 0) return fail(Status::invalid_option, Element::option);
-  }
+  ISOLOD_TRY(check_requests(options, requests));
   const std::uint32_t finest = finest_of(requests);
   const ArenaMark mark = arena.mark();
   Options finest_options = options;
@@ -54,9 +66,7 @@ Status build_lods(const MeshView& view, const Options& options, Span<const LodRe
   Remesher remesher;
   Span<Lod> coarser;
   Status status = arena.result(requests.count - 1, coarser);
-  for (std::uint32_t i = 0; status.is_ok() && i < requests.count; ++i) {
-    if (i != finest) coarser[i < finest ? i : i - 1] = {requests[i].vertex_count, false, {}, {}};
-  }
+  if (status.is_ok()) list_coarser(requests, finest, coarser);
   if (status.is_ok()) status = remesher.begin(view, finest_options, hooks, arena);
   if (remesher.state() != nullptr) {
     remesher.state_->coarser = coarser;
@@ -65,13 +75,34 @@ Status build_lods(const MeshView& view, const Options& options, Span<const LodRe
   }
   if (status.is_ok() && options.validate) status = check_coarser(coarser, arena);
   if (status.is_ok()) status = deliver_all(requests, finest, remesher.result(), coarser);
+  if (status == Status::out_of_memory) {
+    const std::size_t worst = required_memory(view.vertex_count, view.triangle_count, options, requests);
+    status.value = enough_bytes(remesher.state(), coarser, mark.front + mark.back + worst);
+  }
   arena.rewind_results(mark);
   arena.rewind_scratch(mark);
-  if (status == Status::out_of_memory) {
-    const std::size_t enough = required_memory(view.vertex_count, view.triangle_count, options, requests);
-    if (status.value < enough) status.value = enough;
-  }
   if (report != nullptr) report->status = status;
+  return status;
+}
+
+Status plan(const MeshView& view, const Options& options, Span<const LodRequest> requests, MemoryPlan& plan,
+            Arena& arena) {
+  ISOLOD_TRY(check_requests(options, requests));
+  const std::uint32_t finest = finest_of(requests);
+  Options finest_options = options;
+  finest_options.vertex_count = requests[finest].vertex_count;
+  const ArenaMark mark = arena.mark();
+  const std::size_t before = arena.used();
+  Span<Lod> coarser;
+  Status status = arena.result(requests.count - 1, coarser);
+  if (status.is_ok()) {
+    list_coarser(requests, finest, coarser);
+    status = plan_memory(view, finest_options, coarser, plan, arena);
+  }
+  arena.rewind_results(mark);
+  if (status == Status::out_of_memory) {
+    status.value = before + required_memory(view.vertex_count, view.triangle_count, options, requests);
+  }
   return status;
 }
 

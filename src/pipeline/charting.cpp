@@ -59,15 +59,30 @@ Status Charting::keep_good_components(Surface& surface, Arena& arena) {
   return {};
 }
 
+/// The maps of components that became several charts, for each of their halfedges.
+Status Charting::take_maps(const Surface& surface, Atlas& charts, const ChartMaps& maps, Arena& arena) {
+  const ArenaMark results = arena.mark();
+  ISOLOD_TRY(index_places(charts, arena));
+  for (std::uint32_t c = 0; c < charts.chart_count(); ++c) {
+    const Span<const FaceId> faces = charts.chart_faces(c);
+    if (is_good(atlas_.chart_of_face[faces[0u]])) continue;
+    const ScratchScope scope(arena);
+    Chart chart;
+    ISOLOD_TRY(build_chart(surface, faces, charts.chart_of_face, charts.place, chart, arena));
+    for (HalfedgeId h : Ids<HalfedgeId>(chart.mesh.halfedge_count())) {
+      uv_[chart.on_surface(h)] = maps.at(c, chart.mesh.origin[h], chart.on_surface(h));
+    }
+  }
+  arena.rewind_results(results);
+  charts.place = {};
+  return {};
+}
+
 /// One atlas of both: good components keep their one chart, the others have theirs, numbered behind.
-Status Charting::merge(Surface& surface, const Atlas& charts, Span<const Vec2f> uv, Arena& arena) {
+Status Charting::merge(Surface& surface, const Atlas& charts, Arena& arena) {
   const std::uint32_t components = static_cast<std::uint32_t>(reports_.count);
   for (HalfedgeId h : Ids<HalfedgeId>(surface.line.count)) {
-    if (is_good(atlas_.chart_of_face[face(h)])) {
-      surface.line[h] = line_[h];
-    } else {
-      uv_[h] = widen(uv[h]);
-    }
+    if (is_good(atlas_.chart_of_face[face(h)])) surface.line[h] = line_[h];
   }
   const ScratchScope scope(arena);
   Span<std::uint32_t> number;
@@ -86,12 +101,13 @@ Status Charting::merge(Surface& surface, const Atlas& charts, Span<const Vec2f> 
 
 Status Charting::finish(Surface& surface, Atlas& atlas, ChartMaps& maps, Arena& arena) {
   maps = {};
-  if (options_.kind == AtlasKind::charts) return charts_.finish(surface, atlas, maps.rounded, arena);
+  if (options_.kind == AtlasKind::charts) return charts_.finish(surface, atlas, maps, arena);
   if (fallen_back_ > 0) {
     Atlas charts;
-    Span<Vec2f> uv;
-    ISOLOD_TRY(charts_.finish(surface, charts, uv, arena));
-    ISOLOD_TRY(merge(surface, charts, uv, arena));
+    ISOLOD_TRY(charts_.finish(surface, charts, maps, arena));
+    ISOLOD_TRY(take_maps(surface, charts, maps, arena));
+    ISOLOD_TRY(merge(surface, charts, arena));
+    maps = {};
   }
   atlas = atlas_;
   maps.exact = uv_;

@@ -35,7 +35,8 @@ class Charting {
   enum class Phase : std::uint8_t { single, charts, done };
   Status end_single(Surface& surface, Arena& arena);
   Status keep_good_components(Surface& surface, Arena& arena);
-  Status merge(Surface& surface, const Atlas& charts, Span<const Vec2f> uv, Arena& arena);
+  Status take_maps(const Surface& surface, Atlas& charts, const ChartMaps& maps, Arena& arena);
+  Status merge(Surface& surface, const Atlas& charts, Arena& arena);
   bool is_good(std::uint32_t component) const { return reports_[component].map.verdict == MapVerdict::good; }
 
   ChartingOptions options_;

@@ -1,5 +1,6 @@
 // The narrated order of the stages: from the caller's triangles to the first mesh.
 #include "mesh/validate.h"
+#include "pipeline/memory_plan.h"
 #include "pipeline/stage_hashes.h"
 #include "pipeline/state.h"
 #include "relax/worst_faces.h"
@@ -93,15 +94,25 @@ std::uint32_t ample_count(const State& s, const DensityIntegrals& integrals) {
   return static_cast<std::uint32_t>(wanted < most ? wanted : most);
 }
 
-/// Plans at most so many splits, and what the first mesh is made of.
-void plan_run(State& s, const DensityIntegrals& integrals, std::uint32_t most_splits) {
+}  // namespace
+
+LevelPlan plan_of(const State& s, std::uint32_t most_splits) {
+  const DensityIntegrals& integrals = s.integrate.integrals();
   const std::int64_t handles =
       std::int64_t{s.report.components} - (integrals.euler_characteristic + s.report.boundary_loops) / 2;
   const std::int64_t least =
       (integrals.lines > 0 ? least_first_with_lines : least_first_count) + 30 * (s.report.components + handles);
-  s.plan = plan_levels(integrals, s.options.vertex_count, most_splits, static_cast<std::uint32_t>(least));
+  LevelPlan plan = plan_levels(integrals, s.options.vertex_count, most_splits, static_cast<std::uint32_t>(least));
   const std::uint32_t ample = ample_count(s, integrals);
-  if (s.options.remove_seams && s.plan.first_count < ample) s.plan.first_count = ample;
+  if (s.options.remove_seams && plan.first_count < ample) plan.first_count = ample;
+  return plan;
+}
+
+namespace {
+
+/// Plans at most so many splits, and what the first mesh is made of.
+void plan_run(State& s, const DensityIntegrals& integrals, std::uint32_t most_splits) {
+  s.plan = plan_of(s, most_splits);
   s.first_rates = solve_rates(integrals, s.plan.first_count, s.options.calibration);
 }
 
@@ -130,7 +141,11 @@ Status step_close(State& s, bool& done, std::uint64_t& units) {
     done = true;
     return {};
   }
-  if (!s.stage_begun) return s.close.begin(s.surface, {s.rates.line, s.options.corner_angle}, *s.arena);
+  if (!s.stage_begun) {
+    ISOLOD_TRY(s.close.begin(s.surface, {s.rates.line, s.options.corner_angle}, *s.arena));
+    s.close.replace_from(s.repaired.behind_vertices);
+    return {};
+  }
   if (!s.close.done()) {
     ISOLOD_TRY(s.close.step(s.surface, *s.arena));
     done = s.close.done() && s.close.loops().closed == 0;
@@ -146,8 +161,10 @@ Status step_close(State& s, bool& done, std::uint64_t& units) {
 }
 
 Status step_refine(State& s, bool& done, std::uint64_t& units) {
-  if (!s.stage_begun)
+  if (!s.stage_begun) {
     ISOLOD_TRY(s.refine.begin(s.surface, greater(s.rates.line, s.first_rates.line), refine_limit, *s.arena));
+    s.refine.replace_from(s.repaired.behind_vertices);
+  }
   ISOLOD_TRY(s.refine.step(s.surface, *s.arena));
   units = elements_a_piece;
   done = s.refine.done();
@@ -183,6 +200,7 @@ void restart(State& s) {
   s.arena->rewind_results(s.before_atlas);
   s.arena->rewind_scratch(s.before_atlas);
   for (std::uint8_t& l : s.surface.line) l = l & line_feature;
+  s.sizes = {};
   s.next_stage = atlas_stage;
 }
 
@@ -223,7 +241,7 @@ Status step_lines(State& s, bool& done, std::uint64_t& units) {
   units = face_units(s);
   switch (s.piece++) {
     case 0:
-      return chain_backbones(s.surface, s.backbones, *s.arena);
+      return trace_backbones(s.surface, s.backbones, *s.arena);
     case 1:
       if (s.options.calibration == Calibration::paper) {
         DensityIntegrals integrals = integrate_density(s.surface);  // once more: now with the seams
@@ -272,7 +290,8 @@ Status step_diffuse(State& s, bool& done, std::uint64_t& units) {
   s.report.diffusion = {flow.fluency, flow.largest_received, flow.teleports, flow.split_faces};
   place_samples(s.surface, {s.atlas.faces, s.atlas.start}, s.face_count, s.chart_start, s.places);
   s.arena->rewind_scratch(s.before_diffuse);
-  return {};
+  if (s.atlas.place.empty()) ISOLOD_TRY(index_places(s.atlas, *s.arena));
+  return index_edges(s.surface, s.backbones, *s.arena);
 }
 
 /// F = 2 V - B - 2 chi, B the samples on boundaries.
@@ -301,7 +320,10 @@ void relax_sites(State& s, std::uint32_t chart, Lloyd& lloyd) {
 }
 
 Status step_charts(State& s, bool& done, std::uint64_t& units) {
-  if (!s.stage_begun) ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.plan.first_count, *s.arena));
+  if (!s.stage_begun) {
+    ISOLOD_TRY(measure_run(s, s.sizes, *s.arena));
+    ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.plan.first_count, *s.arena));
+  }
   const ScratchScope scope(*s.arena);
   const std::size_t chart = s.piece++;
   FlatChart flat;
@@ -341,8 +363,36 @@ WorstFacesOptions polish_options(const State& s) {
   return is_few ? WorstFacesOptions::for_few() : WorstFacesOptions();
 }
 
+/// What the first mesh was made of goes: from here on only the surface and the mesh are needed.
+void keep_first_mesh(State& s) {
+  Triangulation& mesh = s.stitch.mesh();
+  ArenaMark to = s.before_atlas;
+  s.arena->move_down(mesh.mesh.origin, mesh.mesh.origin.count, to);
+  s.arena->move_down(mesh.mesh.twin, mesh.mesh.twin.count, to);
+  s.arena->move_down(mesh.fixed, mesh.fixed.count, to);
+  s.arena->move_down(mesh.mesh.outgoing, mesh.mesh.outgoing.count, to);
+  move_down(s.samples, s.samples.count(), to, *s.arena);
+  s.arena->rewind_results(to);
+  s.atlas = {};
+  s.maps = {};
+  s.backbones = {};
+  s.lines = {};
+  s.places = {};
+  s.chart_start = {};
+}
+
+/// The level before goes, and what its levels of detail were made of.
+void keep_level(State& s) {
+  ArenaMark to = s.before_atlas;
+  s.levels.move_features(to, *s.arena);
+  s.lods.move_results(to, *s.arena);
+  s.levels.move_mesh(to, *s.arena);
+  s.arena->rewind_results(to);
+}
+
 /// Samples that the first mesh has over its budget are taken out again.
 Status step_thin(State& s, bool& done, std::uint64_t& units) {
+  if (!s.stage_begun && s.options.remove_seams) keep_first_mesh(s);
   units = 100;
   done = !is_thinned(s);
   if (done) return {};
@@ -386,6 +436,7 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
   if (done) return {};
   ISOLOD_TRY(s.levels.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
   s.stage_share = s.levels.share_done();
+  if (s.levels.is_level_begin()) keep_level(s);
   if (s.levels.is_level_end() || s.levels.done()) return s.lods.branch(s.stitch.mesh(), s.samples, *s.arena);
   if (!s.levels.is_unresolved()) return {};
   restart_finer(s);

@@ -1,6 +1,7 @@
 #include "pipeline/levels.h"
 
 #include "base/status.h"
+#include "relax/drop_dead.h"
 #include "relax/face_score.h"
 #include "relax/insert.h"
 #include "relax/line_counts.h"
@@ -110,6 +111,10 @@ Status Levels::find_features(Surface& surface, Arena& arena) {
   return has_lines ? chain_backbones(surface, features_, arena) : Status();
 }
 
+void Levels::move_features(ArenaMark& to, Arena& arena) {
+  if (features() != nullptr) move_down(features_, to, arena);
+}
+
 /// The number of samples on every feature that this level wishes, and their places.
 Status Levels::match_lines(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
   if (features() == nullptr) return {};
@@ -195,6 +200,14 @@ bool Levels::unfolds() const {
   return is_time && !is_thinned() && relaxation_.report().bent > 0;
 }
 
+Status Levels::unfold(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) const {
+  const std::size_t count = samples.count();
+  take_out_folded(surface, relaxation_.is_bent(), mesh, samples);
+  arena.rewind_scratch(scratch_);
+  ISOLOD_TRY(drop_dead_samples(mesh, samples, arena));
+  return insert_where_sparse(surface, static_cast<std::uint32_t>(count - samples.count()), mesh, samples, arena);
+}
+
 /// A piece of an iteration, and at its end what follows.
 void Levels::relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena) {
   if (!relaxation_.step()) return;
@@ -245,8 +258,7 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
       return relaxation_.begin(surface, features(), mesh, samples, relax_options(), arena);
     case Phase::unfold:
       phase_ = Phase::relax;
-      ISOLOD_TRY(unfold(surface, relaxation_.is_bent(), mesh, samples, arena));
-      arena.rewind_scratch(scratch_);
+      ISOLOD_TRY(unfold(surface, mesh, samples, arena));
       return relaxation_.begin(surface, features(), mesh, samples, relax_options(), arena);
     case Phase::relax:
       relax(surface, mesh.mesh, samples, arena);

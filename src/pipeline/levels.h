@@ -45,6 +45,11 @@ class Levels {
   bool done() const { return phase_ == Phase::done; }
   /// Whether a level other than the last has been relaxed and is about to be split; the next step goes on.
   bool is_level_end() const { return phase_ == Phase::level_end; }
+  /// Whether the mesh has just been split for the next level. The one before is not needed then: `move_features` and
+  /// `move_mesh` pack what is, in this order (`Arena::move_down`).
+  bool is_level_begin() const { return phase_ == Phase::lines && level_ > 0; }
+  void move_features(ArenaMark& to, Arena& arena);
+  void move_mesh(ArenaMark& to, Arena& arena) { split_.move_down(to, arena); }
   /// Whether the run was given up because the first level was too coarse for the shape: too many stars are folded up
   /// there, or faces turned over here. There is a finer one to start from.
   bool is_unresolved() const { return phase_ == Phase::unresolved; }
@@ -76,6 +81,7 @@ class Levels {
   bool has_slipped(const Samples& samples) const;
   bool unfolds() const;
   bool is_folded(const Surface& surface, const Halfedges& mesh, const Samples& samples) const;
+  Status unfold(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) const;
   void relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena);
   bool is_thinned() const { return plan_.first_count > plan_.count[0]; }
   bool is_finest() const { return level_ == plan_.splits; }

@@ -36,13 +36,16 @@ void Lods::begin(Span<Lod> lods, const DensityIntegrals& integrals, const Option
   integrals_ = integrals;
   options_ = options;
   phase_ = Phase::done;
-  for (Lod& lod : lods_) lod.is_done = false;
+  turns_ = 0;
+  for (Lod& lod : lods_) lod.is_done = false, lod.turn = 0;
 }
 
 Status Lods::branch(const Triangulation& mesh, const Samples& samples, Arena& arena) {
   bool is_any = false;
   for (const Lod& lod : lods_) is_any = is_any || (!lod.is_done && lod.vertex_count <= samples.count());
   if (!is_any) return {};
+  copies_ = arena.mark();
+  turns_before_ = turns_;
   mesh_ = mesh;
   samples_ = samples;
   ISOLOD_TRY(copy(mesh_, arena));
@@ -83,10 +86,33 @@ void Lods::begin_relax() {
   phase_ = Phase::relax;
 }
 
+void Lods::move_results(std::uint32_t behind_turn, ArenaMark& to, Arena& arena) {
+  for (std::uint32_t turn = behind_turn + 1; turn <= turns_; ++turn) {
+    Lod moved;
+    for (const Lod& lod : lods_) {
+      if (lod.turn == turn) moved = lod;
+    }
+    arena.move_down(moved.positions, moved.positions.count, to);
+    arena.move_down(moved.triangles, moved.triangles.count, to);
+    for (Lod& lod : lods_) {
+      if (lod.turn == turn) lod.positions = moved.positions, lod.triangles = moved.triangles;
+    }
+  }
+}
+
+/// What a branch made goes, but for its results.
+void Lods::give_back(Arena& arena) {
+  ArenaMark to = copies_;
+  move_results(turns_before_, to, arena);
+  arena.rewind_results(to);
+}
+
 Status Lods::step(Surface& surface, Arena& arena) {
   switch (phase_) {
     case Phase::choose:
-      return begin_thin(surface, arena);
+      ISOLOD_TRY(begin_thin(surface, arena));
+      if (done()) give_back(arena);
+      return {};
     case Phase::thin:
       thin_.step();
       if (!thin_.done()) return {};
@@ -106,9 +132,10 @@ Status Lods::step(Surface& surface, Arena& arena) {
     case Phase::finish:
       ISOLOD_TRY(finish_.step(surface, mesh_, samples_, arena));
       if (!finish_.done()) return {};
+      ++turns_;
       for (Lod& lod : lods_) {  // equal wishes share one mesh
         if (lod.vertex_count != samples_.count()) continue;
-        lod = {lod.vertex_count, true, finish_.positions, finish_.triangles};
+        lod = {lod.vertex_count, true, finish_.positions, finish_.triangles, turns_};
       }
       phase_ = Phase::choose;
       return {};

@@ -10,8 +10,8 @@ Status MakeAtlas::begin(const Surface& surface, const AtlasOptions& options, Are
   const std::size_t face_count = surface.mesh.face_count();
   ISOLOD_TRY(arena.result(face_count, label_));
   ISOLOD_TRY(arena.result(face_count, order_));
-  ISOLOD_TRY(arena.result(face_count, place_));
-  ISOLOD_TRY(arena.result(3 * face_count, uv_));
+  uv_ = {};
+  place_ = {};
   mark_ = arena.mark();
   PartitionOptions partition_options;
   partition_options.line_rate = options.line_rate;
@@ -26,6 +26,19 @@ bool MakeAtlas::is_too_large(Span<const FaceId> faces) const {
   return faces.count > 1 && density * options_.surface_rate > 4 * options_.samples_per_chart;
 }
 
+/// Nothing else is taken as a result meanwhile, and two places fill what the arena aligns to: the maps are one array.
+Status MakeAtlas::keep_map(Span<const Vec2f> uv, Arena& arena) {
+  Span<Vec2f> room;
+  ISOLOD_TRY(arena.result(uv.count + uv.count % 2, room));
+  if (uv_.empty()) uv_.data = room.data;
+  ISOLOD_ASSERT(room.data == uv_.data + uv_.count);
+  for (std::size_t v = 0; v < uv.count; ++v) room[v] = uv[v];
+  if (uv.count % 2 != 0) room[uv.count] = uv[uv.count - 1];
+  place_[regions_.front()[0u]] = static_cast<std::uint32_t>(uv_.count);
+  uv_.count += room.count;
+  return {};
+}
+
 Status MakeAtlas::try_map(Span<const FaceId> faces, bool& good, Arena& arena) {
   const ScratchScope scope(arena);
   Chart chart;
@@ -35,13 +48,12 @@ Status MakeAtlas::try_map(Span<const FaceId> faces, bool& good, Arena& arena) {
   ISOLOD_TRY(arena.scratch(chart.mesh.vertex_count(), uv));
   ISOLOD_TRY(flatten_chart(*surface_, chart, options_.flatten, uv, verdict, arena));
   good = verdict == MapVerdict::good;
-  if (!good) return {};
-  for (HalfedgeId h : Ids<HalfedgeId>(chart.mesh.halfedge_count())) uv_[chart.on_surface(h)] = uv[chart.mesh.origin[h]];
-  return {};
+  return good ? keep_map(uv, arena) : Status();
 }
 
 Status MakeAtlas::step(Arena& arena) {
   if (!regions_.ready()) return regions_.step(arena);
+  if (place_.empty()) return arena.scratch(label_.count, place_);
   const Span<const FaceId> faces = regions_.front();
   for (std::size_t i = 0; i < faces.count; ++i) place_[faces[i]] = static_cast<std::uint32_t>(i);
   bool good = false;
@@ -55,11 +67,12 @@ Status MakeAtlas::step(Arena& arena) {
   return regions_.split(arena);
 }
 
-Status MakeAtlas::finish(Surface& surface, Atlas& atlas, Span<Vec2f>& uv, Arena& arena) {
-  arena.rewind_scratch(mark_);
+Status MakeAtlas::finish(Surface& surface, Atlas& atlas, ChartMaps& maps, Arena& arena) {
   ISOLOD_TRY(arena.result(chart_count_ + std::size_t{1}, atlas.start));
+  ISOLOD_TRY(arena.result(chart_count_, maps.start));
   std::uint32_t chart = 0;
   for (std::size_t i = 0; i < order_.count; i = end_of_region(order_, label_, i)) {
+    maps.start[chart] = place_[order_[i]];
     atlas.start[chart++] = static_cast<std::uint32_t>(i);
   }
   atlas.start[chart] = static_cast<std::uint32_t>(order_.count);
@@ -73,8 +86,10 @@ Status MakeAtlas::finish(Surface& surface, Atlas& atlas, Span<Vec2f>& uv, Arena&
   }
   atlas.chart_of_face = label_;
   atlas.faces = order_;
-  atlas.place = place_;
-  uv = uv_;
+  atlas.place = {};
+  maps.rounded = uv_;
+  maps.exact = {};
+  arena.rewind_scratch(mark_);
   return {};
 }
 

@@ -4,7 +4,7 @@
 
 #include "atlas/chart.h"
 #include "atlas/regions.h"
-#include "plane/flatten.h"
+#include "plane/chart_sites.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -17,7 +17,8 @@ struct AtlasOptions {
   FlattenOptions flatten;
 };
 
-/// A stage: begin, step until done, finish. Results: 12 bytes a face for the atlas and 8 bytes a halfedge for `uv`.
+/// A stage: begin, step until done, finish. Results: 8 bytes a face for the atlas and 8 bytes a vertex of each chart
+/// for its map. Scratch: 36 bytes a face, and what one chart needs.
 class MakeAtlas {
  public:
   Status begin(const Surface& surface, const AtlasOptions& options, Arena& arena);
@@ -26,18 +27,21 @@ class MakeAtlas {
   bool done() const { return regions_.empty(); }
   double share_done() const { return regions_.share_taken(); }
   /// Numbers the charts in the order of their faces, adds line_seam to the edges between them, and gives scratch back.
-  Status finish(Surface& surface, Atlas& atlas, Span<Vec2f>& uv, Arena& arena);
+  /// `atlas.place` is left empty: who needs it calls `index_places`.
+  Status finish(Surface& surface, Atlas& atlas, ChartMaps& maps, Arena& arena);
 
  private:
   bool is_too_large(Span<const FaceId> faces) const;
+  Status keep_map(Span<const Vec2f> uv, Arena& arena);
   Status try_map(Span<const FaceId> faces, bool& good, Arena& arena);
 
   const Surface* surface_ = nullptr;
   AtlasOptions options_;
   Span<std::uint32_t> label_;
   Span<FaceId> order_;
-  Span<std::uint32_t> place_;
-  Span<Vec2f> uv_;
+  Span<std::uint32_t>
+      place_;       // of the chart that is tried; of the first face of one that is done: where its map begins
+  Span<Vec2f> uv_;  // of the charts that are done, one after the other
   Regions regions_;
   ArenaMark mark_;
   std::uint32_t chart_count_ = 0;

@@ -1,8 +1,9 @@
 // The state machine that runs the stages, and the plain call that runs it to its end.
 #include <new>
 
+#include "base/array_bytes.h"
 #include "base/check_arithmetic.h"
-#include "pipeline/state.h"
+#include "pipeline/memory_plan.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -50,17 +51,20 @@ Status show_progress(Remesher::State& s) {
   return s.hooks.progress(s.hooks.context, name, s.share_shown) ? Status() : fail(Status::cancelled);
 }
 
-/// A run that starts again from a finer first mesh reports each stage once, with the time of all attempts.
+/// A run that starts again from a finer first mesh reports each stage once, with the time of all attempts and the most
+/// memory of any.
 void close_stage(Remesher::State& s) {
   std::size_t at = 0;
   while (at < s.report.stage_count && s.report.stages[at].name != stage_entries[s.stage].name) ++at;
   StageReport& stage = s.report.stages[at];
   const double before = at < s.report.stage_count ? stage.seconds : 0;
+  const std::size_t most = at < s.report.stage_count ? stage.arena_bytes : 0;
   if (at == s.report.stage_count) ++s.report.stage_count;
   stage.name = stage_entries[s.stage].name;
   stage.hash = stage_entries[s.stage].hash(s);
   stage.seconds = before + now(s) - s.stage_start;
-  stage.arena_bytes = s.arena->high_water();
+  stage.arena_bytes = most_of(most, s.arena->high_water());
+  s.report.arena_bytes = most_of(s.report.arena_bytes, stage.arena_bytes);
   s.arena->reset_high_water();
 }
 
@@ -195,15 +199,16 @@ Status remesh(const MeshView& view, const Options& options, const MeshSink& sink
   Status status = remesher.begin(view, options, hooks, arena);
   if (status.is_ok()) status = remesher.advance(UINT64_MAX - 1);
   if (report != nullptr && remesher.state() != nullptr) *report = remesher.report();
+  if (status == Status::out_of_memory) {
+    const std::size_t worst = required_memory(view.vertex_count, view.triangle_count, options);
+    status.value = enough_bytes(remesher.state(), {}, mark.front + mark.back + worst);
+  }
   const bool is_named_well = remesher.state() != nullptr && remesher.state()->is_thinnest;
   if (status.is_ok()) status = announce(remesher.result(), sink);
   if (status.is_ok()) status = deliver(remesher.result(), sink);
   arena.rewind_results(mark);
   arena.rewind_scratch(mark);
-  if (status == Status::out_of_memory) {
-    const std::size_t enough = required_memory(view.vertex_count, view.triangle_count, options);
-    if (status.value < enough) status.value = enough;
-  } else if (status == Status::budget_too_small && !is_named_well) {
+  if (status == Status::budget_too_small && !is_named_well) {
     status.value = number_that_works(view, options, status.value, arena);
   }
   if (report != nullptr) report->status = status;
@@ -220,10 +225,7 @@ std::size_t required_memory(std::size_t vertex_count, std::size_t triangle_count
   const std::size_t long_ones = triangle_count < samples ? triangle_count : samples;
   const std::size_t refined = triangle_count + 6 * samples +
                               static_cast<std::size_t>(0.25 * square_root(static_cast<double>(samples))) * long_ones;
-  // One chart needs a sparse factor of its whole map; the strip its matching.
-  const std::size_t single = options.atlas == AtlasKind::single ? 1400 * refined : 0;
-  const std::size_t strip = options.fluency == Fluency::strip ? 100 * refined : 0;
-  return (std::size_t{1} << 20) + 120 * vertex_count + 600 * refined + 2000 * samples + single + strip;
+  return worst_bytes(vertex_count, refined, samples, options);
 }
 
 }  // namespace v1

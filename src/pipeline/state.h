@@ -6,6 +6,7 @@
 #include "mesh/repair.h"
 #include "pipeline/charting.h"
 #include "pipeline/lods.h"
+#include "pipeline/run_sizes.h"
 #include "plane/lloyd.h"
 #include "result/stitch.h"
 #include "sample/calibrate.h"
@@ -55,6 +56,7 @@ struct Remesher::State {
   Diffuse diffuse;
   Span<std::uint32_t> face_count;
   ArenaMark before_diffuse;
+  RunSizes sizes;  ///< once the charts have begun; before, its surface_bytes are 0
   SampleNumbers numbers;
   Stitch stitch;
   Samples samples;
@@ -91,8 +93,11 @@ extern const std::uint32_t stage_entry_count;
 /// More samples no first mesh gets than this, unless the budget itself is larger.
 inline std::size_t most_first_count(std::size_t triangle_count) { return 2000 + triangle_count / 4; }
 
+/// The levels of the run with at most so many splits. The integrals are known.
+LevelPlan plan_of(const Remesher::State& state, std::uint32_t most_splits);
+
 /// Places in `stage_entries`: where a run starts again, and behind which a budget is known to be enough.
-constexpr std::uint32_t atlas_stage = 7, lines_stage = 8;
+constexpr std::uint32_t atlas_stage = 7, lines_stage = 8, charts_stage = 10;
 
 }  // namespace v1
 }  // namespace isolod

@@ -1,5 +1,6 @@
 #include "plane/chart_sites.h"
 
+#include "base/array_bytes.h"
 #include "base/predicates.h"
 #include "plane/locate.h"
 
@@ -14,10 +15,20 @@ Status build_flat_chart(const Surface& surface, const Atlas& atlas, const ChartM
   ISOLOD_TRY(arena.scratch(mesh.halfedge_count(), flat.barrier));
   for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
     const HalfedgeId global = flat.chart.on_surface(h);
-    flat.uv[mesh.origin[h]] = maps.at(global);
+    flat.uv[mesh.origin[h]] = maps.at(chart, mesh.origin[h], global);
     flat.barrier[h] = surface.line[global];
   }
   return {};
+}
+
+std::size_t chart_sites_bytes(std::size_t face_count, std::size_t vertex_count, std::size_t sample_count) {
+  const std::size_t corners = 3 * face_count, vertices = vertex_count + sample_count;
+  const std::size_t faces = face_count + 2 * sample_count;
+  const std::size_t flat = 2 * array_bytes<VertexId>(corners) + 2 * array_bytes<VertexId>(vertex_count) +
+                           array_bytes<Vec2>(vertex_count) + array_bytes<std::uint8_t>(corners);
+  const std::size_t sites = mesh_bytes(vertices, faces) + array_bytes<Vec2>(vertices) +
+                            2 * array_bytes<SampleId>(vertices) + array_bytes<HalfedgeId>(3 * faces);
+  return flat + sites + array_bytes<VertexId>(vertices) + compact_bytes(faces);
 }
 
 namespace {

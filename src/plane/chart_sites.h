@@ -36,15 +36,21 @@ struct SampledSurface {
   SampleNumbers numbers;
 };
 
-/// The maps of an atlas, a place per halfedge: that of its origin in the chart of its face. Rounded to 32 bits for
-/// charts of little stretch, exact for a whole component.
+/// The maps of an atlas. Rounded to 32 bits for charts of little stretch: a place per local vertex (chart.h), chart by
+/// chart. Exact for whole components: a place per halfedge, that of its origin in the chart of its face. Rounded ones
+/// are per halfedge too where there is no `start`.
 struct ChartMaps {
   Span<Vec2f> rounded;
+  Span<std::uint32_t> start;  ///< per chart: its part of `rounded`
   Span<Vec2> exact;
 
   ChartMaps() = default;
   ChartMaps(Span<Vec2f> uv) : rounded(uv) {}  // NOLINT: a map is a map
-  Vec2 at(HalfedgeId h) const { return exact.empty() ? widen(rounded[h]) : exact[h]; }
+  /// Of a local vertex of a chart, where a halfedge of the surface begins.
+  Vec2 at(std::size_t chart, VertexId local, HalfedgeId h) const {
+    if (!exact.empty()) return exact[h];
+    return widen(start.empty() ? rounded[h] : rounded[start[chart] + local.value]);
+  }
 };
 
 /// The flattened chart: what samples are located in.
@@ -60,6 +66,10 @@ struct ChartSites {
   Span<FaceId> home;        ///< per vertex: a local face of the flat chart near it, where walks begin
   std::uint32_t stuck = 0;  ///< original vertices that could not be taken out
 };
+
+/// The scratch of `build_flat_chart` and `triangulate_sites` for a chart of so many faces and samples, those on its
+/// border included.
+std::size_t chart_sites_bytes(std::size_t face_count, std::size_t vertex_count, std::size_t sample_count);
 
 /// Builds the local chart and its map. Scratch stays with the caller's scope.
 Status build_flat_chart(const Surface& surface, const Atlas& atlas, const ChartMaps& maps, std::size_t chart,

@@ -20,6 +20,7 @@
 // Time: O(corners) for each face that is overlapped or touched. Bytes: 8 a face of the chart, in scratch.
 #pragma once
 
+#include "base/array_bytes.h"
 #include "plane/locate.h"
 #include "plane/voronoi_cell.h"
 
@@ -31,6 +32,8 @@ class ExactMoment {
  public:
   /// `corner_weight` is per halfedge of `ground`: the weight at its origin in its face. Both must outlive this. Scratch
   /// of 8 bytes a face stays with the caller's scope.
+  /// The scratch of `begin`.
+  static std::size_t bytes(std::size_t face_count) { return 2 * array_bytes<FaceId>(face_count); }
   Status begin(const WalkGround& ground, Span<const double> corner_weight, Arena& arena);
 
   /// Mass of the cell, and first moment about the site. `start` is the face that holds the site, or one near it.

@@ -1,5 +1,6 @@
 #include "plane/gabriel.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 
 namespace isolod {
@@ -8,6 +9,10 @@ inline namespace v1 {
 Status GabrielCells::begin(std::size_t site_capacity, Arena& arena) {
   ISOLOD_TRY(arena.scratch(site_capacity, moment_));
   return arena.scratch(site_capacity, is_tagged_);
+}
+
+std::size_t GabrielCells::bytes(std::size_t site_capacity) {
+  return array_bytes<Moment>(site_capacity) + array_bytes<std::uint8_t>(site_capacity);
 }
 
 void GabrielCells::tag(const PlaneTriangulation& p, const CellCorners& corners) {

@@ -18,6 +18,8 @@ inline namespace v1 {
 class GabrielCells {
  public:
   Status begin(std::size_t site_capacity, Arena& arena);
+  /// The scratch of `begin`.
+  static std::size_t bytes(std::size_t site_capacity);
 
   /// Tags the sites; those on lines get a tag that means nothing.
   void tag(const PlaneTriangulation& p, const CellCorners& corners);

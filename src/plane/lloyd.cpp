@@ -1,9 +1,16 @@
 #include "plane/lloyd.h"
 
+#include "base/array_bytes.h"
 #include "base/predicates.h"
 
 namespace isolod {
 inline namespace v1 {
+
+std::size_t Lloyd::bytes(std::size_t face_count, std::size_t site_count, std::size_t site_face_count) {
+  return array_bytes<double>(3 * face_count) + array_bytes<double>(site_count) + array_bytes<Vec2>(site_count) +
+         array_bytes<FaceId>(site_count) + GabrielCells::bytes(site_count) + CellCorners::bytes(site_face_count) +
+         ExactMoment::bytes(face_count);
+}
 
 Status Lloyd::begin(const Surface& surface, const FlatChart& flat, ChartSites& sites, std::uint32_t first_movable,
                     const LloydOptions& options, Arena& arena) {

@@ -25,6 +25,8 @@ struct LloydOptions {
 
 class Lloyd {
  public:
+  /// The scratch of `begin`, for a chart of so many faces, sites and faces between sites.
+  static std::size_t bytes(std::size_t face_count, std::size_t site_count, std::size_t site_face_count);
   /// Scratch of 24 bytes a face of the chart (32 for exact centroids), 21 a face of the sites and 53 a site stays with
   /// the caller's scope.
   Status begin(const Surface& surface, const FlatChart& flat, ChartSites& sites, std::uint32_t first_movable,

@@ -9,6 +9,7 @@
 // and the cell's border passes. So a cell that lies in the faces around its site is integrated exactly.
 #pragma once
 
+#include "base/array_bytes.h"
 #include "plane/delaunay.h"
 
 namespace isolod {
@@ -25,6 +26,11 @@ struct CellCorners {
   Span<HalfedgeId> blind;   ///< the fixed edge between a face and its circumcentre, seen from the face's side, or none
   Span<std::uint8_t> wide;  ///< the corner, 0 to 2, whose angle is obtuse
 
+  /// The scratch of `begin`.
+  static std::size_t bytes(std::size_t face_capacity) {
+    return array_bytes<Vec2>(face_capacity) + array_bytes<HalfedgeId>(face_capacity) +
+           array_bytes<std::uint8_t>(face_capacity);
+  }
   /// Scratch of 21 bytes a face.
   Status begin(std::size_t face_capacity, Arena& arena);
   void update(const PlaneTriangulation& p);

@@ -1,9 +1,14 @@
 #include "relax/drop_dead.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 
 namespace isolod {
 inline namespace v1 {
+
+std::size_t drop_dead_bytes(std::size_t sample_count, std::size_t face_count) {
+  return array_bytes<VertexId>(sample_count) + compact_bytes(face_count);
+}
 
 Status drop_dead_samples(Triangulation& mesh, Samples& samples, Arena& arena) {
   const ScratchScope scope(arena);

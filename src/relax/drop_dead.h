@@ -7,6 +7,9 @@
 namespace isolod {
 inline namespace v1 {
 
+/// The scratch of `drop_dead_samples`.
+std::size_t drop_dead_bytes(std::size_t sample_count, std::size_t face_count);
+
 /// Drops every sample without a face, and the dead faces; the others keep their order. Scratch: 4 bytes a sample and 4
 /// a face, given back. O(n) time.
 Status drop_dead_samples(Triangulation& mesh, Samples& samples, Arena& arena);

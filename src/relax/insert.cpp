@@ -7,6 +7,10 @@
 namespace isolod {
 inline namespace v1 {
 
+std::size_t insert_bytes(std::size_t face_count, std::size_t count) {
+  return IndexedHeap::bytes(face_count + 2 * count);
+}
+
 Status insert_where_sparse(const Surface& surface, std::uint32_t count, Triangulation& mesh, Samples& samples,
                            Arena& arena) {
   if (count == 0) return {};

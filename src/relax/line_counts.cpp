@@ -93,6 +93,10 @@ LineChange change_after_split(const Surface& surface, const Backbones& features,
   return change;
 }
 
+std::size_t match_line_bytes(const LineSizes& lines, std::size_t sample_count, std::size_t face_count) {
+  return riders_bytes(lines) + track_bytes(lines.longest) + drop_dead_bytes(sample_count, face_count);
+}
+
 Status match_line_counts(const Surface& surface, const Backbones& features, const LineSamples& wished,
                          Triangulation& mesh, Samples& samples, Arena& arena) {
   const ScratchScope scope(arena);

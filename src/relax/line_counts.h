@@ -21,6 +21,9 @@ struct LineChange {
 LineChange change_after_split(const Surface& surface, const Backbones& features, const Riders& riders,
                               const LineSamples& wished);
 
+/// The scratch of `match_line_counts` on a mesh that has so many samples and faces at the end.
+std::size_t match_line_bytes(const LineSizes& lines, std::size_t sample_count, std::size_t face_count);
+
 /// Gives every backbone as many inner samples as `wished` has, or as near as its neighbourhood lets it: some samples
 /// could only go by folding the mesh up. `mesh` and `samples` must have room for those that are added. Scratch: some 60
 /// bytes a held sample and 8 a face, given back. O(n log n) time.

@@ -1,5 +1,6 @@
 #include "relax/mass_loop.h"
 
+#include "base/array_bytes.h"
 #include "base/elementary.h"
 #include "base/status.h"
 
@@ -16,6 +17,8 @@ constexpr double whole_turn = 6.283185307179586;
 bool is_counted(const StarCell& cell) { return cell.mass > 0 && cell.angle > 0; }
 
 }  // namespace
+
+std::size_t MassLoop::bytes(std::size_t sample_count) { return 2 * array_bytes<double>(sample_count); }
 
 Status MassLoop::begin(const Triangulation& mesh, const Samples& samples, Arena& arena) {
   mesh_ = &mesh;

@@ -18,6 +18,8 @@ inline namespace v1 {
 /// A stage: begin once, then `start` and step until done, as often as the loop is closed.
 class MassLoop {
  public:
+  /// The scratch of `begin`.
+  static std::size_t bytes(std::size_t sample_count);
   /// 16 bytes a sample of scratch stay with the caller's scope.
   Status begin(const Triangulation& mesh, const Samples& samples, Arena& arena);
   void start() {

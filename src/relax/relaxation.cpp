@@ -1,5 +1,6 @@
 #include "relax/relaxation.h"
 
+#include "base/array_bytes.h"
 #include "base/elementary.h"
 #include "base/status.h"
 #include "relax/face_mass.h"
@@ -45,6 +46,13 @@ Status Relaxation::begin(const Surface& surface, const Backbones* features, Tria
   ISOLOD_TRY(arena.scratch(mesh.mesh.halfedge_count(), wants_));
   ISOLOD_TRY(arena.scratch(samples.count(), site_));
   return arena.scratch(samples.count(), cell_);
+}
+
+std::size_t Relaxation::bytes(std::size_t surface_face_count, std::size_t sample_count, std::size_t face_count) {
+  const std::size_t own = 2 * array_bytes<std::uint8_t>(sample_count) + array_bytes<std::uint8_t>(3 * face_count) +
+                          array_bytes<Site>(sample_count) + array_bytes<StarCell>(sample_count);
+  return MassLoop::bytes(sample_count) + Tiles::bytes(surface_face_count, sample_count) +
+         most_of(own, Tiles::begin_bytes(surface_face_count));
 }
 
 void Relaxation::look(SampleId s) {

@@ -1,5 +1,6 @@
 #include "relax/resettle.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 #include "relax/middle_place.h"
 #include "relax/slide.h"
@@ -17,6 +18,11 @@ constexpr std::uint32_t most_donors = 4;
 constexpr double least_gain = 1e-3;  // of the badness, which is a sum of squares
 
 }  // namespace
+
+std::size_t Resettle::bytes() {
+  return array_bytes<VertexId>(most_inner) + array_bytes<SavedSample>(most_inner) +
+         array_bytes<SavedHalfedge>(most_halfedges);
+}
 
 Status Resettle::begin(const Surface& surface, const Backbones* features, double wanted_score, Triangulation& mesh,
                        Samples& samples, StarMoves& moves, Arena& arena) {

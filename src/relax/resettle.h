@@ -13,6 +13,8 @@ inline namespace v1 {
 
 class Resettle {
  public:
+  /// The scratch of `begin`.
+  static std::size_t bytes();
   /// Faces under `wanted_score` are bad. Scratch stays with the caller's scope: some 20 KB.
   Status begin(const Surface& surface, const Backbones* features, double wanted_score, Triangulation& mesh,
                Samples& samples, StarMoves& moves, Arena& arena);

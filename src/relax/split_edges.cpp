@@ -1,5 +1,6 @@
 #include "relax/split_edges.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 #include "relax/middle_place.h"
 #include "sample/riders.h"
@@ -14,6 +15,10 @@ HalfedgeId first_half(HalfedgeId h) { return halfedge(FaceId{4 * face(h).value +
 HalfedgeId second_half(HalfedgeId h) { return halfedge(FaceId{4 * face(h).value + next(h).value % 3}, 2); }
 
 }  // namespace
+
+std::size_t SplitEdges::bytes(std::size_t face_count, const LineSizes& lines) {
+  return array_bytes<SampleId>(3 * face_count) + riders_bytes(lines) + track_bytes(lines.longest);
+}
 
 std::uint32_t SplitEdges::number_middles() {
   std::uint32_t count = static_cast<std::uint32_t>(old_.count());
@@ -35,11 +40,21 @@ Status SplitEdges::reserve(std::size_t sample_count, std::uint32_t spare, Arena&
   ISOLOD_TRY(arena.result(halfedges, mesh.mesh.origin));
   ISOLOD_TRY(arena.result(halfedges, mesh.mesh.twin));
   ISOLOD_TRY(arena.result(halfedges, mesh.fixed));
+  sample_room_ = sample_count + spare;
+  halfedge_room_ = halfedges;
   samples.set_count(sample_count);
   mesh.mesh.outgoing.count = sample_count;
   mesh.mesh.origin.count = mesh.mesh.twin.count = mesh.fixed.count = 3 * face_count;
   for (SampleId s : Ids<SampleId>(old_.count())) samples.copy(old_, s, s);
   return {};
+}
+
+void SplitEdges::move_down(ArenaMark& to, Arena& arena) {
+  isolod::move_down(*samples_, sample_room_, to, arena);
+  arena.move_down(mesh_->mesh.outgoing, sample_room_, to);
+  arena.move_down(mesh_->mesh.origin, halfedge_room_, to);
+  arena.move_down(mesh_->mesh.twin, halfedge_room_, to);
+  arena.move_down(mesh_->fixed, halfedge_room_, to);
 }
 
 /// In the middle of their interval by density; the ends of an interval are neighbours on the line.

@@ -16,6 +16,8 @@ inline namespace v1 {
 /// room for `spare` more.
 class SplitEdges {
  public:
+  /// The scratch of `begin` for a coarse mesh of so many faces.
+  static std::size_t bytes(std::size_t face_count, const LineSizes& lines);
   /// `features` are the backbones of the surface without seams, or null where it has none. Results: about 110 bytes a
   /// new sample; the old ones stay behind. Scratch: 4 bytes a halfedge, and some 60 a held sample for a while; all
   /// given back at the end.
@@ -24,6 +26,8 @@ class SplitEdges {
   /// The middles of a range of edges, or the faces of one.
   void step(Arena& arena);
   bool done() const { return phase_ == Phase::done; }
+  /// Once done: moves the mesh and its samples down to `to`, over the old ones (`Arena::move_down`).
+  void move_down(ArenaMark& to, Arena& arena);
 
  private:
   enum class Phase : std::uint8_t { place, subdivide, done };
@@ -44,6 +48,7 @@ class SplitEdges {
   Sweep sweep_;
   Span<SampleId> middle_;  // per coarse halfedge: its new sample; they are numbered behind the old ones
   ArenaMark mark_;
+  std::size_t sample_room_ = 0, halfedge_room_ = 0;
 };
 
 /// The whole stage at once.

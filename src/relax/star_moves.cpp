@@ -1,5 +1,6 @@
 #include "relax/star_moves.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 #include "relax/face_mass.h"
 #include "relax/slide.h"
@@ -11,6 +12,10 @@ inline namespace v1 {
 
 namespace {
 constexpr double pattern_step[3] = {-1, 0, 1};  // of a pattern of places to try, along one axis
+}
+
+std::size_t StarMoves::bytes(std::size_t sample_count) {
+  return array_bytes<Stand>(sample_count) + array_bytes<std::uint8_t>(sample_count);
 }
 
 Status StarMoves::begin(const Surface& surface, const Backbones* features, Triangulation& mesh, Samples& samples,

@@ -13,6 +13,8 @@ inline namespace v1 {
 
 class StarMoves {
  public:
+  /// The scratch of `begin`.
+  static std::size_t bytes(std::size_t sample_count);
   /// `features` are the backbones that samples may slide on, or null: then held ones stay. 49 bytes a sample of scratch
   /// stay with the caller's scope.
   Status begin(const Surface& surface, const Backbones* features, Triangulation& mesh, Samples& samples, Arena& arena);

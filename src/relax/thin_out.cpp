@@ -1,5 +1,6 @@
 #include "relax/thin_out.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 #include "relax/drop_dead.h"
 #include "relax/face_mass.h"
@@ -15,6 +16,11 @@ constexpr std::uint32_t most_flips_around = 32;
 constexpr std::uint32_t most_tries_to_unlock = 4000;
 
 }  // namespace
+
+std::size_t ThinOut::bytes(std::size_t sample_count, std::size_t face_count) {
+  return IndexedHeap::bytes(sample_count) + array_bytes<std::uint8_t>(sample_count) +
+         drop_dead_bytes(sample_count, face_count);
+}
 
 Status ThinOut::begin(const Surface& surface, const ThinOptions& options, Triangulation& mesh, Samples& samples,
                       Arena& arena) {

@@ -23,6 +23,8 @@ struct ThinOptions {
 /// A stage: begin, step until done, finish.
 class ThinOut {
  public:
+  /// Its scratch, `finish` included.
+  static std::size_t bytes(std::size_t sample_count, std::size_t face_count);
   /// `surface`, `mesh` and `samples` must stay until `finish`. Scratch: 17 bytes a sample.
   Status begin(const Surface& surface, const ThinOptions& options, Triangulation& mesh, Samples& samples, Arena& arena);
   /// Looks at one sample, or makes one flip where none can go. O(valence^3) time, O(log n) for the queue.

@@ -1,9 +1,16 @@
 #include "relax/tiles.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 
 namespace isolod {
 inline namespace v1 {
+
+std::size_t Tiles::bytes(std::size_t surface_face_count, std::size_t sample_count) {
+  return array_bytes<SampleId>(surface_face_count) + array_bytes<Reach>(sample_count);
+}
+
+std::size_t Tiles::begin_bytes(std::size_t surface_face_count) { return array_bytes<FaceId>(surface_face_count); }
 
 Status Tiles::begin(const Surface& surface, const Samples& samples, Arena& arena) {
   surface_ = &surface;

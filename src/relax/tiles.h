@@ -18,6 +18,10 @@ inline FaceId face_of(const Samples& samples, SampleId s) {
 
 class Tiles {
  public:
+  /// The scratch of `begin`: what stays, and what it gives back.
+  static std::size_t bytes(std::size_t surface_face_count, std::size_t sample_count);
+  static std::size_t begin_bytes(std::size_t surface_face_count);
+
   /// Gives every face to a sample, from the samples' own faces on outwards, over no feature. 4 bytes a face of the
   /// surface of scratch stay with the caller's scope, 4 more are given back.
   Status begin(const Surface& surface, const Samples& samples, Arena& arena);

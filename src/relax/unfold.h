@@ -12,10 +12,9 @@ namespace isolod {
 inline namespace v1 {
 
 /// Merges each free sample that `is_bent` names into the neighbour that leaves the best worst face, where the topology
-/// lets it, and puts as many in again (`insert_where_sparse`), so that the count stays. Samples are renumbered.
-/// Scratch: that of `insert_where_sparse`, given back.
-Status unfold(const Surface& surface, Span<const std::uint8_t> is_bent, Triangulation& mesh, Samples& samples,
-              Arena& arena);
+/// lets it. Its place in the arrays is dead then (`drop_dead_samples`); `insert_where_sparse` keeps the count.
+void take_out_folded(const Surface& surface, Span<const std::uint8_t> is_bent, Triangulation& mesh,
+                     const Samples& samples);
 
 }  // namespace v1
 }  // namespace isolod

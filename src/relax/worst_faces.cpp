@@ -1,5 +1,6 @@
 #include "relax/worst_faces.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 #include "relax/drop_dead.h"
 
@@ -16,6 +17,11 @@ constexpr double resettle_shares[] = {0.5, 0.8, 0.94, 0.94};
 constexpr std::uint32_t resettle_passes = sizeof resettle_shares / sizeof resettle_shares[0];
 
 }  // namespace
+
+std::size_t WorstFaces::bytes(std::size_t sample_count, std::size_t face_count) {
+  return StarMoves::bytes(sample_count) + Resettle::bytes() + array_bytes<std::uint8_t>(sample_count) +
+         drop_dead_bytes(sample_count, face_count);
+}
 
 Status WorstFaces::begin(const Surface& surface, const Backbones* features, const WorstFacesOptions& options,
                          Triangulation& mesh, Samples& samples, Arena& arena) {

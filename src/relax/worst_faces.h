@@ -26,6 +26,8 @@ struct WorstFacesOptions {
 /// A stage: begin, step until done, finish.
 class WorstFaces {
  public:
+  /// Its scratch, `finish` included.
+  static std::size_t bytes(std::size_t sample_count, std::size_t face_count);
   /// `features` are the backbones of the surface without seams, or null: then held samples stay. Some 51 bytes a sample
   /// of scratch stay with the caller's scope.
   Status begin(const Surface& surface, const Backbones* features, const WorstFacesOptions& options, Triangulation& mesh,

@@ -1,5 +1,6 @@
 #include "result/displacements.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 
 namespace isolod {
@@ -20,6 +21,11 @@ Vec3 solve(const Symmetric3& m, Vec3 b) {
   if (!(determinant > 0)) return {0, 0, 0};
   const Vec3 sum = b.x * minors[0] + b.y * minors[1] + b.z * minors[2];
   return {sum.x / determinant, sum.y / determinant, sum.z / determinant};
+}
+
+std::size_t Displacements::bytes(std::size_t vertex_count, std::size_t face_count) {
+  return array_bytes<Symmetric3>(vertex_count) + array_bytes<Symmetric3>(3 * face_count) +
+         2 * array_bytes<Vec3>(vertex_count);
 }
 
 Status Displacements::begin(const Halfedges& mesh, Arena& arena) {

@@ -35,6 +35,8 @@ Vec3 solve(const Symmetric3& m, Vec3 b);
 
 class Displacements {
  public:
+  /// The scratch of `begin`.
+  static std::size_t bytes(std::size_t vertex_count, std::size_t face_count);
   /// Room for a mesh; 96 bytes a vertex and 144 a face of scratch stay with the caller's scope.
   Status begin(const Halfedges& mesh, Arena& arena);
 

@@ -1,5 +1,6 @@
 #include "result/feature_lines.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 #include "sample/calibrate.h"
 #include "sample/keep_shape.h"
@@ -44,6 +45,11 @@ std::uint32_t best_turn(const Surface& surface, const Backbones& features, std::
 }
 
 }  // namespace
+
+std::size_t feature_lines_bytes(const LineSizes& lines) {
+  return riders_bytes(lines) + array_bytes<LinePlace>(lines.samples) + array_bytes<std::uint8_t>(lines.samples) +
+         most_of(relax_lines_bytes(lines), keep_shape_bytes(lines));
+}
 
 Status sample_features_anew(const Surface& surface, const Backbones& features, const FeatureSampling& options,
                             Samples& samples, Arena& arena) {

@@ -18,6 +18,9 @@ struct FeatureSampling {
   bool keep_shape = true;  ///< pull samples onto vertices that their chords would cut off, and hold them there
 };
 
+/// The scratch of `sample_features_anew`.
+std::size_t feature_lines_bytes(const LineSizes& lines);
+
 /// Moves the anchors of all held samples between corners; their order along each backbone stays. `features` are the
 /// backbones of `surface` without seams. Scratch: about 40 bytes an edge of the longest backbone and 100 a held sample,
 /// given back. O(n log n) time.

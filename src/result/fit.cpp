@@ -1,5 +1,6 @@
 #include "result/fit.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 
 namespace isolod {
@@ -32,6 +33,11 @@ double shape(Vec3 twice_area, Vec3 a, Vec3 b, Vec3 c) {
 }
 
 }  // namespace
+
+std::size_t Fit::bytes(std::size_t surface_face_count, std::size_t sample_count, std::size_t face_count) {
+  return array_bytes<Vec3>(sample_count) + array_bytes<Vec3>(face_count) + array_bytes<double>(sample_count) +
+         2 * array_bytes<FaceId>(surface_face_count) + Displacements::bytes(sample_count, face_count);
+}
 
 Status Fit::begin(const Surface& surface, const Triangulation& mesh, const Samples& samples, Span<double> positions,
                   Arena& arena) {

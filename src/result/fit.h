@@ -26,6 +26,8 @@ inline namespace v1 {
 /// these lie below one of those.
 class Fit {
  public:
+  /// The scratch of `begin`.
+  static std::size_t bytes(std::size_t surface_face_count, std::size_t sample_count, std::size_t face_count);
   /// `positions`, 3 a sample, are the lifted ones; they are written at the end. Connectivity stays as it is. Scratch,
   /// given back at the end: 128 bytes a sample, 168 a face of the mesh, 8 a face of the surface.
   Status begin(const Surface& surface, const Triangulation& mesh, const Samples& samples, Span<double> positions,

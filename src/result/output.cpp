@@ -1,5 +1,6 @@
 #include "result/output.h"
 
+#include "base/array_bytes.h"
 #include "base/hash.h"
 #include "base/sort.h"
 #include "base/status.h"
@@ -25,6 +26,10 @@ Triangle from_lowest(const Halfedges& mesh, FaceId f) {
 }
 
 }  // namespace
+
+std::size_t list_triangles_bytes(std::size_t vertex_count, std::size_t face_count) {
+  return 2 * array_bytes<Triangle>(face_count) + array_bytes<std::uint32_t>(vertex_count + 1);
+}
 
 Status list_triangles(const Halfedges& mesh, Span<std::uint32_t>& triangles, Arena& arena) {
   ISOLOD_TRY(arena.result(mesh.halfedge_count(), triangles));

@@ -1,5 +1,6 @@
 #include "result/stitch.h"
 
+#include "base/array_bytes.h"
 #include "base/sort.h"
 #include "base/status.h"
 
@@ -106,6 +107,12 @@ Status Stitch::mend_doubled_edges(Arena& arena) {
     if (doubled == 0) return {};
   }
   return fail(Status::invalid_result);
+}
+
+/// At first every face may be an edge of its own, later two halfedges share one.
+std::size_t Stitch::bytes(std::size_t sample_count, std::size_t face_count) {
+  const std::size_t edges = face_count + face_count / 2 + sample_count;
+  return 2 * array_bytes<Edge>(edges) + array_bytes<std::uint32_t>(sample_count + 1);
 }
 
 Status Stitch::finish(Arena& arena) {

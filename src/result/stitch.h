@@ -13,6 +13,8 @@ inline namespace v1 {
 
 class Stitch {
  public:
+  /// The scratch of `finish`.
+  static std::size_t bytes(std::size_t sample_count, std::size_t face_count);
   /// Room for exactly `face_count` faces over `sample_count` samples: the origins as results, 9 bytes a halfedge of
   /// scratch.
   Status begin(std::size_t face_count, std::size_t sample_count, Arena& arena);

@@ -1,5 +1,6 @@
 #include "sample/backbones.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 
 namespace isolod {
@@ -47,21 +48,22 @@ HalfedgeId continuation(const Surface& surface, HalfedgeId h) {
 
 class Chainer {
  public:
-  Chainer(const Surface& surface, Backbones& backbones) : surface_(surface), backbones_(backbones) {}
+  Chainer(const Surface& surface, Backbones& backbones, Span<std::uint8_t> traced)
+      : surface_(surface), backbones_(backbones), traced_(traced) {}
 
   void trace(HalfedgeId first) {
     backbones_.start[count_++] = filled_;
     HalfedgeId h = first;
     do {
-      backbones_.place[h] = filled_;
-      if (const HalfedgeId t = surface_.mesh.twin[h]; !t.is_none()) backbones_.place[t] = filled_;
+      traced_[h] = 1;
+      if (const HalfedgeId t = surface_.mesh.twin[h]; !t.is_none()) traced_[t] = 1;
       backbones_.edge[filled_++] = h;
       if (backbones_.node_of_vertex[surface_.mesh.target(h)] != UINT32_MAX) break;
       h = continuation(surface_, h);
     } while (h != first);
   }
 
-  bool is_open_line(HalfedgeId h) const { return surface_.line[h] != line_none && backbones_.place[h] == UINT32_MAX; }
+  bool is_open_line(HalfedgeId h) const { return surface_.line[h] != line_none && traced_[h] == 0; }
 
   void trace_from(VertexId node) {
     const HalfedgeId first = surface_.mesh.outgoing[node];
@@ -78,22 +80,26 @@ class Chainer {
  private:
   const Surface& surface_;
   Backbones& backbones_;
+  Span<std::uint8_t> traced_;  // per halfedge
   std::uint32_t count_ = 0, filled_ = 0;
 };
 
 }  // namespace
 
-Status chain_backbones(const Surface& surface, Backbones& backbones, Arena& arena) {
+std::size_t backbones_bytes(std::size_t vertex_count, const LineSizes& lines) {
+  return array_bytes<std::uint32_t>(vertex_count) + array_bytes<VertexId>(lines.nodes) +
+         array_bytes<HalfedgeId>(lines.edges) + array_bytes<std::uint32_t>(lines.edges + 1);
+}
+
+Status trace_backbones(const Surface& surface, Backbones& backbones, Arena& arena) {
   const Halfedges& mesh = surface.mesh;
   ISOLOD_TRY(arena.result(mesh.vertex_count(), backbones.node_of_vertex));
-  ISOLOD_TRY(arena.result(mesh.halfedge_count(), backbones.place));
   std::uint32_t node_count = 0;
   for (VertexId v : Ids<VertexId>(mesh.vertex_count())) {
     backbones.node_of_vertex[v] = is_node(surface, v) ? node_count++ : UINT32_MAX;
   }
   std::size_t edge_count = 0;
   for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
-    backbones.place[h] = UINT32_MAX;
     edge_count += surface.line[h] != line_none && (mesh.is_boundary(h) || h < mesh.twin[h]);
   }
   ISOLOD_TRY(arena.result(node_count, backbones.node));
@@ -102,7 +108,11 @@ Status chain_backbones(const Surface& surface, Backbones& backbones, Arena& aren
   for (VertexId v : Ids<VertexId>(mesh.vertex_count())) {
     if (backbones.node_of_vertex[v] != UINT32_MAX) backbones.node[backbones.node_of_vertex[v]] = v;
   }
-  Chainer chainer(surface, backbones);
+  const ScratchScope scope(arena);
+  Span<std::uint8_t> traced;
+  ISOLOD_TRY(arena.scratch(mesh.halfedge_count(), traced));
+  for (std::uint8_t& t : traced) t = 0;
+  Chainer chainer(surface, backbones, traced);
   for (VertexId v : backbones.node) chainer.trace_from(v);
   for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
     if (chainer.is_open_line(h)) chainer.trace(h);
@@ -110,6 +120,30 @@ Status chain_backbones(const Surface& surface, Backbones& backbones, Arena& aren
   backbones.start[chainer.count()] = chainer.filled();
   backbones.start.count = chainer.count() + std::size_t{1};
   return {};
+}
+
+Status index_edges(const Surface& surface, Backbones& backbones, Arena& arena) {
+  ISOLOD_TRY(arena.result(surface.mesh.halfedge_count(), backbones.place));
+  for (std::uint32_t& p : backbones.place) p = UINT32_MAX;
+  for (std::uint32_t i = 0; i < backbones.edge.count; ++i) {
+    const HalfedgeId h = backbones.edge[i], t = surface.mesh.twin[h];
+    backbones.place[h] = i;
+    if (!t.is_none()) backbones.place[t] = i;
+  }
+  return {};
+}
+
+void move_down(Backbones& backbones, ArenaMark& to, Arena& arena) {
+  arena.move_down(backbones.node_of_vertex, backbones.node_of_vertex.count, to);
+  arena.move_down(backbones.node, backbones.node.count, to);
+  arena.move_down(backbones.edge, backbones.edge.count, to);
+  arena.move_down(backbones.start, backbones.start.count, to);
+  arena.move_down(backbones.place, backbones.place.count, to);
+}
+
+Status chain_backbones(const Surface& surface, Backbones& backbones, Arena& arena) {
+  ISOLOD_TRY(trace_backbones(surface, backbones, arena));
+  return index_edges(surface, backbones, arena);
 }
 
 }  // namespace v1

@@ -33,8 +33,27 @@ inline bool is_feature(const Surface& surface, const Backbones& backbones, std::
   return (surface.line[backbones.edges(b)[0u]] & line_feature) != 0;
 }
 
-/// Results: 4 bytes a vertex, 4 a halfedge, 4 to 8 a line edge. O(n) time.
+/// How large the lines of a surface are, at most: what is known before they are chained.
+struct LineSizes {
+  std::size_t edges = 0, nodes = 0, backbones = 0;
+  std::size_t longest = 0;  ///< edges of the longest backbone
+  std::size_t samples = 0;  ///< on all of them, nodes included
+};
+
+/// Results of `trace_backbones`.
+std::size_t backbones_bytes(std::size_t vertex_count, const LineSizes& lines);
+
+/// All but `place`. Results: 4 bytes a vertex, 4 to 8 a line edge; 1 byte a halfedge of scratch, given back. O(n) time.
+Status trace_backbones(const Surface& surface, Backbones& backbones, Arena& arena);
+
+/// Fills `place`. Results: 4 bytes a halfedge. O(n) time.
+Status index_edges(const Surface& surface, Backbones& backbones, Arena& arena);
+
+/// Both.
 Status chain_backbones(const Surface& surface, Backbones& backbones, Arena& arena);
+
+/// Moves all arrays down to `to` (`Arena::move_down`).
+void move_down(Backbones& backbones, ArenaMark& to, Arena& arena);
 
 }  // namespace v1
 }  // namespace isolod

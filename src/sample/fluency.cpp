@@ -13,7 +13,7 @@ Status TreeFluency::begin(const Halfedges& mesh, const ErrorFlow& flow, Arena& a
   ISOLOD_TRY(arena.scratch(mesh.face_count(), to_parent_));
   ISOLOD_TRY(arena.scratch(mesh.face_count(), received_));
   ISOLOD_TRY(arena.scratch(mesh.face_count(), seen_));
-  return arena.scratch(mesh.halfedge_count(), stack_);
+  return arena.scratch(mesh.face_count() / 4 * 3 + 6, stack_);
 }
 
 void TreeFluency::step() {

@@ -1,5 +1,6 @@
 #include "sample/keep_shape.h"
 
+#include "base/array_bytes.h"
 #include "base/sort.h"
 #include "base/status.h"
 #include "sample/track.h"
@@ -288,6 +289,12 @@ class ShapeKeeper {
 };
 
 }  // namespace
+
+std::size_t keep_shape_bytes(const LineSizes& lines) {
+  const std::size_t most = lines.samples + 2;
+  return track_bytes(lines.longest) + 2 * array_bytes<Point>(most) + 2 * array_bytes<Deviation>(most) +
+         array_bytes<Segment>(most) + 3 * array_bytes<Offer>(most);
+}
 
 Status keep_line_shape(const Surface& surface, const Backbones& backbones, double tolerance, LineSamples& samples,
                        Span<std::uint8_t> pinned, Arena& arena) {

@@ -25,6 +25,9 @@ inline namespace v1 {
 /// The design's tolerance, as a share of the diagonal of the bounding box.
 constexpr double line_shape_tolerance = 0.0002;
 
+/// The scratch of `keep_line_shape`.
+std::size_t keep_shape_bytes(const LineSizes& lines);
+
 /// `tolerance` is a length. `pinned` has one flag a line sample and is filled.
 Status keep_line_shape(const Surface& surface, const Backbones& backbones, double tolerance, LineSamples& samples,
                        Span<std::uint8_t> pinned, Arena& arena);

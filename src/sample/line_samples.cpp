@@ -1,5 +1,6 @@
 #include "sample/line_samples.h"
 
+#include "base/array_bytes.h"
 #include "base/sort.h"
 #include "base/status.h"
 #include "sample/calibrate.h"
@@ -189,6 +190,16 @@ void spread_on_backbone(const Surface& surface, const Backbones& backbones, std:
     }
     passed += here;
   }
+}
+
+std::size_t sample_lines_bytes(const LineSizes& lines) {
+  const std::size_t backbones = lines.backbones;
+  const std::size_t links = 2 * array_bytes<std::uint64_t>(2 * backbones) +
+                            array_bytes<std::uint32_t>(lines.nodes + 1) + array_bytes<std::uint32_t>(2 * backbones);
+  const std::size_t parallel = 2 * array_bytes<std::uint32_t>(backbones);
+  const std::size_t flow = array_bytes<FixedCount>(backbones) + array_bytes<std::uint8_t>(backbones);
+  return array_bytes<std::uint32_t>(backbones + 1) + array_bytes<LinePlace>(lines.samples) +
+         array_bytes<Wish>(backbones) + most_of(parallel, links + flow);
 }
 
 Status sample_lines(const Surface& surface, const Backbones& backbones, double line_rate, std::uint32_t room,

@@ -28,6 +28,9 @@ struct LineSamples {
   }
 };
 
+/// What `sample_lines` takes for results and scratch.
+std::size_t sample_lines_bytes(const LineSizes& lines);
+
 /// Distributes samples over all backbones: about line_rate * density each, never fewer than keep the surface's
 /// topology, at most `room` in all. Fails with budget_too_small and the number of samples that is needed at least where
 /// even the least do not fit. Results: 4 bytes a backbone, 16 a sample. O(edges) time.

@@ -1,5 +1,6 @@
 #include "sample/lloyd_line.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 #include "sample/track.h"
 
@@ -124,6 +125,10 @@ class LineLloyd {
 };
 
 }  // namespace
+
+std::size_t relax_lines_bytes(const LineSizes& lines) {
+  return track_bytes(lines.longest) + array_bytes<double>(2 * lines.longest) + 2 * array_bytes<double>(lines.samples);
+}
 
 Status relax_lines(const Surface& surface, const Backbones& backbones, LineSamples& samples, LloydWeight weight,
                    std::uint32_t iterations, Arena& arena) {

@@ -20,6 +20,9 @@ inline namespace v1 {
 
 constexpr std::uint32_t default_line_iterations = 20;
 
+/// The scratch of `relax_lines`.
+std::size_t relax_lines_bytes(const LineSizes& lines);
+
 Status relax_lines(const Surface& surface, const Backbones& backbones, LineSamples& samples, LloydWeight weight,
                    std::uint32_t iterations, Arena& arena);
 

@@ -1,5 +1,6 @@
 #include "sample/riders.h"
 
+#include "base/array_bytes.h"
 #include "base/sort.h"
 #include "base/status.h"
 
@@ -50,6 +51,11 @@ void find_starts(const Backbones& features, Riders& riders) {
 }
 
 }  // namespace
+
+std::size_t riders_bytes(const LineSizes& lines) {
+  return array_bytes<std::uint32_t>(lines.backbones + 1) + array_bytes<SampleId>(lines.nodes) +
+         2 * array_bytes<Rider>(lines.samples);
+}
 
 Status collect_riders(const Surface& surface, const Backbones& features, const Samples& samples, Riders& riders,
                       Arena& arena) {

@@ -23,6 +23,9 @@ struct Riders {
   }
 };
 
+/// The scratch of `collect_riders`.
+std::size_t riders_bytes(const LineSizes& lines);
+
 /// Finds every held sample on the backbones of the features, seams not among them. Scratch: 4 bytes a backbone, 48 a
 /// held sample and 4 a node. O(n log n) time.
 Status collect_riders(const Surface& surface, const Backbones& features, const Samples& samples, Riders& riders,

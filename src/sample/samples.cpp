@@ -1,5 +1,6 @@
 #include "sample/samples.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 
 namespace isolod {
@@ -10,6 +11,18 @@ Status reserve(Samples& samples, std::size_t count, Arena& arena) {
   ISOLOD_TRY(arena.result(count, samples.anchor));
   ISOLOD_TRY(arena.result(count, samples.held));
   return arena.result(count, samples.correction);
+}
+
+std::size_t samples_bytes(std::size_t count) {
+  return array_bytes<SurfacePlace>(count) + array_bytes<LineAnchor>(count) + array_bytes<std::uint8_t>(count) +
+         array_bytes<double>(count);
+}
+
+void move_down(Samples& samples, std::size_t room, ArenaMark& to, Arena& arena) {
+  arena.move_down(samples.place, room, to);
+  arena.move_down(samples.anchor, room, to);
+  arena.move_down(samples.held, room, to);
+  arena.move_down(samples.correction, room, to);
 }
 
 Vec3 position_of(const Surface& surface, const SurfacePlace& place) {

@@ -53,6 +53,12 @@ struct Samples {
 /// Takes room for `count` samples, 49 bytes each, as results; what they are is not set.
 Status reserve(Samples& samples, std::size_t count, Arena& arena);
 
+/// What `reserve` takes.
+std::size_t samples_bytes(std::size_t count);
+
+/// Moves all arrays down to `to`, with room for `room` samples (`Arena::move_down`).
+void move_down(Samples& samples, std::size_t room, ArenaMark& to, Arena& arena);
+
 /// A sample is the vertex of the same number.
 inline VertexId vertex(SampleId s) { return {s.value}; }
 

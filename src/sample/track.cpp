@@ -1,10 +1,15 @@
 #include "sample/track.h"
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 #include "sample/calibrate.h"
 
 namespace isolod {
 inline namespace v1 {
+
+std::size_t track_bytes(std::size_t longest) {
+  return 2 * array_bytes<double>(longest + 1) + array_bytes<double>(2 * longest);
+}
 
 Status begin_track(const Backbones& backbones, Track& track, Arena& arena) {
   std::size_t longest = 0;

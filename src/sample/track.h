@@ -24,7 +24,8 @@ struct Track {
   double whole_mass() const { return mass[mass.count - 1]; }
 };
 
-/// Scratch for the longest backbone.
+/// Scratch for the longest backbone: `track_bytes` of its edges.
+std::size_t track_bytes(std::size_t longest);
 Status begin_track(const Backbones& backbones, Track& track, Arena& arena);
 
 void fill_track(const Surface& surface, const Backbones& backbones, std::size_t b, Track& track);

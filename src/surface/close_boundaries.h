@@ -52,6 +52,9 @@ class CloseBoundaries {
   /// A range of halfedges, faces or vertices, or a few loops, each whole.
   Status step(Surface& surface, Arena& arena);
   bool done() const { return phase_ == Phase::done; }
+  /// After `begin`: all results behind `mark` are arrays of the surface and go when new ones take their place. Else the
+  /// old ones stay.
+  void replace_from(ArenaMark mark) { mark_.front = mark.front; }
   const ClosedLoops& loops() const { return counts_; }
 
  private:

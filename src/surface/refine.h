@@ -21,6 +21,9 @@ class Refine {
   /// results; scratch is given back at the end and on failure. O(n) time a round.
   Status step(Surface& surface, Arena& arena);
   bool done() const { return phase_ == Phase::done; }
+  /// After `begin`: all results behind `mark` are arrays of the surface and go when refined ones take their place. Else
+  /// the old ones stay.
+  void replace_from(ArenaMark mark) { mark_.front = mark.front; }
 
   static constexpr std::uint32_t most_rounds = 40;
 

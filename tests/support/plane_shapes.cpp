@@ -139,6 +139,21 @@ Atlas Labels::atlas() {
           {place.data(), place.size()}};
 }
 
+std::vector<Vec2> map_by_halfedge(const Surface& surface, Atlas& atlas, const ChartMaps& maps, Arena& arena) {
+  if (atlas.place.empty()) REQUIRE(index_places(atlas, arena).is_ok());
+  std::vector<Vec2> out(surface.mesh.halfedge_count());
+  for (std::size_t c = 0; c < atlas.chart_count(); ++c) {
+    const ScratchScope scope(arena);
+    FlatChart flat;
+    REQUIRE(build_flat_chart(surface, atlas, maps, c, flat, arena).is_ok());
+    const Halfedges& mesh = flat.chart.mesh;
+    for (HalfedgeId h : Ids<HalfedgeId>(mesh.halfedge_count())) {
+      out[flat.chart.on_surface(h).value] = flat.uv[mesh.origin[h]];
+    }
+  }
+  return out;
+}
+
 SampledPiece::SampledPiece(Piece& p, std::uint32_t vertex_count) : piece(p) {
   const Surface& surface = piece.surface;
   const std::size_t faces = surface.mesh.face_count();
@@ -148,12 +163,12 @@ SampledPiece::SampledPiece(Piece& p, std::uint32_t vertex_count) : piece(p) {
   REQUIRE(arena.result(faces, atlas.faces).is_ok());
   REQUIRE(arena.result(faces, atlas.place).is_ok());
   REQUIRE(arena.result(2, atlas.start).is_ok());
-  REQUIRE(arena.result(3 * faces, uv).is_ok());
+  REQUIRE(arena.result(3 * faces, uv.rounded).is_ok());
   for (FaceId f : Ids<FaceId>(faces)) atlas.chart_of_face[f] = 0, atlas.faces[f] = f, atlas.place[f] = f.value;
   atlas.start[0] = 0, atlas.start[1] = static_cast<std::uint32_t>(faces);
   for (HalfedgeId h : Ids<HalfedgeId>(3 * faces)) {
     const Vec3 at = surface.position(surface.mesh.origin[h]);
-    uv[h] = {static_cast<float>(at.x), static_cast<float>(at.y)};
+    uv.rounded[h] = {static_cast<float>(at.x), static_cast<float>(at.y)};
   }
   sample(vertex_count);
 }
@@ -168,6 +183,7 @@ SampledPiece::SampledPiece(Piece& p, std::uint32_t vertex_count, double samples_
   REQUIRE(stage.begin(piece.surface, options, piece.block.arena).is_ok());
   while (!stage.done()) REQUIRE(stage.step(piece.block.arena).is_ok());
   REQUIRE(stage.finish(piece.surface, atlas, uv, piece.block.arena).is_ok());
+  REQUIRE(index_places(atlas, piece.block.arena).is_ok());
   sample(vertex_count);
 }
 

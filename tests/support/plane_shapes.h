@@ -71,6 +71,10 @@ struct Labels {
   isolod::Atlas atlas();
 };
 
+/// A map per halfedge of the surface, whatever it was kept as. Indexes the atlas's places where they are not there.
+std::vector<isolod::Vec2> map_by_halfedge(const isolod::Surface& surface, isolod::Atlas& atlas,
+                                          const isolod::ChartMaps& maps, isolod::Arena& arena);
+
 /// A surface with charts, flat maps and samples: all that `triangulate_sites` wants.
 class SampledPiece {
  public:
@@ -87,7 +91,7 @@ class SampledPiece {
   Piece& piece;
   isolod::Rates rates;
   isolod::Atlas atlas;
-  isolod::Span<isolod::Vec2f> uv;
+  isolod::ChartMaps uv;
   isolod::Backbones backbones;
   isolod::LineSamples lines;
   isolod::Span<isolod::SurfacePlace> places;

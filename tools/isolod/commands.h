@@ -16,6 +16,9 @@ int command_remesh(const Arguments& arguments);
 const CommandRule& lods_rule();
 int command_lods(const Arguments& arguments);
 
+const CommandRule& plan_rule();
+int command_plan(const Arguments& arguments);
+
 const CommandRule& info_rule();
 int command_info(const Arguments& arguments);
 

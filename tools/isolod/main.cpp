@@ -11,9 +11,9 @@ namespace {
 using namespace tool;
 
 constexpr Command commands[] = {
-    {remesh_rule, command_remesh},     {lods_rule, command_lods}, {info_rule, command_info},
-    {compare_rule, command_compare},   {make_rule, command_make}, {cut_rule, command_cut},
-    {validate_rule, command_validate},
+    {remesh_rule, command_remesh}, {lods_rule, command_lods},         {plan_rule, command_plan},
+    {info_rule, command_info},     {compare_rule, command_compare},   {make_rule, command_make},
+    {cut_rule, command_cut},       {validate_rule, command_validate},
 };
 
 std::string general_help() {

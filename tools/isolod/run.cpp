@@ -118,13 +118,30 @@ isolod::MeshView TriangleMesh::view() const {
   return view;
 }
 
+isolod::Status plan_run(const isolod::MeshView& view, const RunSettings& settings, isolod::MemoryPlan& plan) {
+  RunOutcome none;
+  const std::vector<isolod::LodRequest> requests = requests_of(settings, none);
+  const std::size_t most = enough_memory(view, settings);
+  for (std::size_t bytes = std::min<std::size_t>(most, std::size_t{1} << 24);; bytes = std::min(most, 4 * bytes)) {
+    const std::unique_ptr<unsigned char[]> block(new (std::nothrow) unsigned char[bytes]);
+    if (block == nullptr) return Status(Status::out_of_memory, isolod::Element::byte, bytes);
+    isolod::Arena arena(block.get(), bytes);
+    const Status status = requests.empty()
+                              ? isolod::plan(view, settings.options, plan, arena)
+                              : isolod::plan(view, settings.options, {requests.data(), requests.size()}, plan, arena);
+    if (status != Status::out_of_memory || bytes >= most) return status;
+  }
+}
+
 RunOutcome run_remesh(const isolod::MeshView& view, const RunSettings& settings) {
   RunOutcome outcome;
   if (settings.memory_bytes != 0) {
     attempt(view, settings, settings.memory_bytes, outcome);
     return outcome;
   }
-  const std::size_t bytes = enough_memory(view, settings);
+  isolod::MemoryPlan plan;
+  const bool is_planned = plan_run(view, settings, plan).is_ok();
+  const std::size_t bytes = is_planned ? plan.bytes : enough_memory(view, settings);
   attempt(view, settings, bytes, outcome);
   const Status& status = outcome.status;
   if (status == Status::out_of_memory && status.element == isolod::Element::byte && status.value > bytes) {

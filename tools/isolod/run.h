@@ -33,7 +33,7 @@ struct LloydSum {
 struct RunSettings {
   isolod::Options options;
   std::vector<std::uint32_t> lods;  ///< vertices of each level of detail; empty: one mesh, as the options say
-  std::size_t memory_bytes = 0;     ///< 0: what `required_memory` says, and once more with what the status asks for
+  std::size_t memory_bytes = 0;     ///< 0: as planned, and once more with what the status asks for
   bool show_progress = false;
   bool watch_lloyd = false;  ///< fill `RunOutcome::lloyd`, which takes time
 };
@@ -47,6 +47,9 @@ struct RunOutcome {
   std::size_t block_bytes = 0;     ///< of the last block
   double seconds = 0;              ///< of the last attempt
 };
+
+/// What a run needs, stage by stage. The block for planning grows as long as it is too small.
+isolod::Status plan_run(const isolod::MeshView& view, const RunSettings& settings, isolod::MemoryPlan& plan);
 
 RunOutcome run_remesh(const isolod::MeshView& view, const RunSettings& settings);
 

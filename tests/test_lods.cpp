@@ -46,7 +46,7 @@ struct Relaxed {
   void wish(const std::vector<std::uint32_t>& counts) {
     lods.clear(), seen.clear(), order.clear();
     for (const std::uint32_t count : counts) lods.push_back({count, true, {}, {}});
-    stage.begin({lods.data(), lods.size()}, s.integrate.integrals(), options);
+    stage.begin({lods.data(), lods.size()}, s.integrate.integrals(), options, {});
   }
   Status branch() { return stage.branch(s.stitch.mesh(), s.samples, block.arena); }
   /// Steps to the end; `order` gets the counts as they are done.

@@ -88,6 +88,10 @@ struct Hooks {
   /// Called after every iteration of every chart, charts in order. A run that starts again from a finer first mesh
   /// begins again with chart 0. Without it the energy is not computed.
   void (*lloyd)(void* context, const LloydReport& report) = nullptr;
+  /// Calls piece(data, i) for every i below `count`, in any order and on any threads, and returns when all have
+  /// returned. The result is the same with it and without, for any number of threads. Used where samples are relaxed.
+  void (*parallel_for)(void* context, std::uint32_t count, void (*piece)(void* data, std::uint32_t i),
+                       void* data) = nullptr;
 };
 
 /// The result of a run: lies in the arena until that is used again.

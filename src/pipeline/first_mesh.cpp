@@ -427,8 +427,9 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
     LevelOptions options;
     options.line_rate = s.rates.line;
     options.weight = s.options.weight;
+    options.parallel = {s.hooks.context, s.hooks.parallel_for, &s.environment};
     s.levels.begin(s.plan, options);
-    s.lods.begin(s.coarser, s.integrate.integrals(), s.options);
+    s.lods.begin(s.coarser, s.integrate.integrals(), s.options, options.parallel);
   }
   units = elements_a_piece;
   if (!s.lods.done()) return s.lods.step(s.surface, *s.arena);

@@ -99,6 +99,7 @@ RelaxOptions Levels::relax_options() const {
   options.weight = options_.weight;
   options.line_rate = line_rate(level_);
   options.guards_faces = is_thinned();
+  options.parallel = options_.parallel;
   return options;
 }
 
@@ -194,10 +195,10 @@ bool Levels::has_slipped(const Samples& samples) const {
 }
 
 /// Whether folds are to be taken out now: not so near to the end that what is put in has no time to settle, and not
-/// where a few samples stand for a whole shape and all are folded.
+/// where the only level is too coarse for its shape: there the tips are folds.
 bool Levels::unfolds() const {
   const bool is_time = iteration_ % unfold_period == 0 && iteration_ + quiet_end <= iterations(level_);
-  return is_time && !is_thinned() && relaxation_.report().bent > 0;
+  return plan_.splits > 0 && !is_thinned() && is_time && relaxation_.report().bent > 0;
 }
 
 Status Levels::unfold(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) const {

@@ -34,6 +34,7 @@ struct LevelOptions {
   std::uint32_t coarse_iterations = 320;
   std::uint32_t fine_iterations = 60;
   std::uint32_t only_iterations = 80;  ///< where there is one level alone
+  Parallel parallel;
 };
 
 /// A stage: begin, step until done.

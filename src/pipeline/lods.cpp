@@ -31,10 +31,11 @@ Status copy(Samples& samples, Arena& arena) {
 
 }  // namespace
 
-void Lods::begin(Span<Lod> lods, const DensityIntegrals& integrals, const Options& options) {
+void Lods::begin(Span<Lod> lods, const DensityIntegrals& integrals, const Options& options, const Parallel& parallel) {
   lods_ = lods;
   integrals_ = integrals;
   options_ = options;
+  parallel_ = parallel;
   phase_ = Phase::done;
   turns_ = 0;
   for (Lod& lod : lods_) lod.is_done = false, lod.turn = 0;
@@ -81,6 +82,7 @@ void Lods::begin_relax() {
   LevelOptions options;
   options.weight = options_.weight;
   options.line_rate = solve_rates(integrals_, plan.first_count, Calibration::corrected).line;
+  options.parallel = parallel_;
   options.only_iterations = is_near_ ? options.fine_iterations : options.coarse_iterations;
   levels_.begin(plan, options);
   phase_ = Phase::relax;

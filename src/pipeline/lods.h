@@ -24,7 +24,7 @@ struct Lod {
 class Lods {
  public:
   /// `lods` are the wished ones but the finest, in any order.
-  void begin(Span<Lod> lods, const DensityIntegrals& integrals, const Options& options);
+  void begin(Span<Lod> lods, const DensityIntegrals& integrals, const Options& options, const Parallel& parallel);
 
   /// Takes up those that a level of so many samples, just relaxed, is enough for. `mesh` and `samples` are copied: some
   /// 110 bytes a sample of results, given back when all are made; 48 a vertex of each are left.
@@ -47,6 +47,7 @@ class Lods {
   Span<Lod> lods_;
   DensityIntegrals integrals_;
   Options options_;
+  Parallel parallel_;
   Phase phase_ = Phase::done;
   std::uint32_t at_ = 0;  // the one that is worked on
   std::uint32_t turns_ = 0;

@@ -146,7 +146,9 @@ bool Relaxation::move_by(SampleId s, Vec3 normal, Vec3 way) {
   SurfacePlace place;
   if (!walk_straight(*surface_, samples_.place[s], way, place)) return false;
   const Vec3 there = position_of(*surface_, place);
-  return keeps_faces(vertex(s), normal, there) && take_if_fair(s, [&] { samples_.place[s] = place; });
+  if (!keeps_faces(vertex(s), normal, there) || !take_if_fair(s, [&] { samples_.place[s] = place; })) return false;
+  site_[s].position = there;
+  return true;
 }
 
 /// How far v may slide on its line at once.
@@ -179,7 +181,9 @@ bool Relaxation::slide_by(SampleId s, Vec3 normal, Vec3 way) {
   const double wished = dot(way, along) / size;
   const LineAnchor there = slide_along(*surface_, *features_, anchor, greater(-room, smaller(room, wished)));
   const Vec3 point = position_of(*surface_, there);
-  return keeps_faces(vertex(s), normal, point) && take_if_fair(s, [&] { samples_.anchor[s] = there; });
+  if (!keeps_faces(vertex(s), normal, point) || !take_if_fair(s, [&] { samples_.anchor[s] = there; })) return false;
+  site_[s].position = point;
+  return true;
 }
 
 /// How far the cell of a sample reaches, in wished edge lengths.
@@ -300,18 +304,10 @@ bool Relaxation::step() {
       loop_.step(cell_);
       if (loop_.done()) phase_ = Phase::moves;
       return false;
-    case Phase::moves: {
-      const auto move_next = [&](SampleId s) { move(s); };
-      // Faces are guarded by the places that others have come to.
-      if (!(options_.guards_faces ? sweep_.over<SampleId>(count, move_next) : over<SampleId>(count, move_next)))
-        return false;
-      phase_ = Phase::arrive;
-      return false;
-    }
-    case Phase::arrive:
-      if (over<SampleId>(count, [&](SampleId s) { site_[s].position = position_of(*surface_, samples_, s); })) {
-        phase_ = Phase::find_flips;
-      }
+    // One after the other: each keeps its faces upright beside what others have come to. All at once from the old
+    // places, a coarse mesh comes off tips (ears of the bunny at 1,000).
+    case Phase::moves:
+      if (sweep_.over<SampleId>(count, [&](SampleId s) { move(s); })) phase_ = Phase::find_flips;
       return false;
     case Phase::find_flips:
       if (over<HalfedgeId>(edges, [&](HalfedgeId h) { look_at_edge(h); })) phase_ = Phase::flips;

@@ -6,12 +6,12 @@
 // the stars of some sixty samples inside: they cost more than all the rest, fold where a coarse mesh is curled, and
 // came out worse (bunny at 10,000: Q mean 0.925 against 0.939). A star needs no map: its faces are flat already.
 //
-// All samples move at once, from their old places: each by the over-relaxed step to the centroid of its bounded Voronoi
-// cell, the part of it along the surface, walked straight on over the original faces. A sample on a feature slides
-// along it, by the same centroid, of its cells on both sides, and by more to even out the line; one at a corner, or
-// that keeps a line's shape, stays. The cell of a sample whose star is folded up is taken from the surface (`Tiles`). A
-// step that would turn a face over is halved or dropped. Then edges that are no feature are flipped by their angles
-// (Bobenko and Springborn 2007). The mesh is a valid manifold with the same count after every iteration.
+// All cells are taken before any sample moves: each goes by the over-relaxed step to the centroid of its bounded
+// Voronoi cell, the part of it along the surface, walked straight on over the original faces. A sample on a feature
+// slides along it, by the same centroid, of its cells on both sides, and by more to even out the line; one at a corner,
+// or that keeps a line's shape, stays. The cell of a sample whose star is folded up is taken from the surface
+// (`Tiles`). A step that would turn a face over is halved or dropped. Then edges that are no feature are flipped by
+// their angles (Bobenko and Springborn 2007). The mesh is a valid manifold with the same count after every iteration.
 #pragma once
 
 #include "isolod/options.h"
@@ -63,7 +63,7 @@ class Relaxation {
   RelaxReport iterate();
 
  private:
-  enum class Phase : std::uint8_t { look, cells, tiles, gather, loop, moves, arrive, find_flips, flips };
+  enum class Phase : std::uint8_t { look, cells, tiles, gather, loop, moves, find_flips, flips };
   template <class Id, class Visit>
   bool over(std::size_t count, Visit visit) {
     return sweep_.over<Id>(options_.parallel, count, visit);

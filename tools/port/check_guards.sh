@@ -66,7 +66,7 @@ EOT
 # found NAME FOLDER WANTED RUN COMPILER FLAGS [LINK_FLAGS]: what self_test says, in the thread's mode and in calls.
 found() {
   objects=""
-  for source in "$2/src/base/check_arithmetic.cpp" "$2/src/base/environment.cpp" "$2/src/base/status.cpp" "$out/main.cpp"; do
+  for source in "$2/src/base/check_arithmetic.cpp" "$2/src/base/environment.cpp" "$2/src/base/fail.cpp" "$out/main.cpp"; do
     object="$out/$(basename "$source").o"
     # shellcheck disable=SC2086  # lists of flags
     $5 -std=c++17 $6 -I"$2/include" -I"$2/src" -c "$source" -o "$object" || { bad "$1: does not compile"; return; }

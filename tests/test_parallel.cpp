@@ -21,12 +21,9 @@ Parallel parallel_of(Threads& threads, FloatEnvironment& environment) { return {
 std::uint64_t hash_with(Threads* threads, const shapes::Shape& shape, const Options& options) {
   Hooks hooks;
   if (threads != nullptr) hooks.context = threads, hooks.parallel_for = run_threads;
-  const MeshView view = support::view_of(shape);
-  support::Block block(required_memory(view.vertex_count, view.triangle_count, options));
-  support::Kept kept;
-  Report report;
-  REQUIRE(remesh(view, options, kept.sink(), &report, block.arena, hooks).is_ok());
-  return report.result_hash;
+  const support::Run run = support::run(support::view_of(shape), options, 0, hooks);
+  REQUIRE(run.status.is_ok());
+  return run.report.result_hash;
 }
 
 }  // namespace

@@ -7,20 +7,7 @@ set -u
 cd "$(dirname "$0")/.." || exit 1
 work="$(mktemp -d)" || exit 1
 trap 'rm -rf "$work"' EXIT
-passed=0
-failed=0
-
-# verdict NAME FILE: passes where the file of findings is empty.
-verdict() {
-  if [ -s "$2" ]; then
-    failed=$((failed + 1))
-    echo "BAD $1"
-    sed 's/^/      /' "$2"
-  else
-    passed=$((passed + 1))
-    echo "ok  $1"
-  fi
-}
+. tools/common.sh
 
 find include src -name '*.h' -o -name '*.cpp' | sort >"$work/files"
 
@@ -48,7 +35,7 @@ done <"$work/files" >"$work/code"
 # ban NAME PATTERN [EXCEPT]: no line of code may match the pattern, but for places that match the exception.
 ban() {
   grep -E -- "$2" "$work/code" | grep -vE -- "${3:-^$}" >"$work/found"
-  verdict "$1" "$work/found"
+  no_findings "$1" "$work/found"
 }
 
 word='(^|[^A-Za-z0-9_.>])'
@@ -85,13 +72,13 @@ awk -F'[:]' '
     if (!(to[1] in rank)) print $1 ":" $2 ": includes " target ", which is in no folder of the library"
     else if (rank[to[1]] > from) print $1 ":" $2 ": includes " target ", which comes after " part[2]
   }' "$work/code" >"$work/found"
-verdict "includes run one way" "$work/found"
+no_findings "includes run one way" "$work/found"
 
 while read -r file; do
   lines="$(wc -l <"$file")"
   [ "$lines" -le 600 ] || echo "$file: $lines lines (600 at most)"
 done <"$work/files" >"$work/found"
-verdict "files of 600 lines at most" "$work/found"
+no_findings "files of 600 lines at most" "$work/found"
 
 while read -r file; do
   case "$(head -n 1 "$file")" in
@@ -100,7 +87,7 @@ while read -r file; do
       echo "$file: does not begin with a comment that says what it is" ;;
   esac
 done <"$work/files" >"$work/found"
-verdict "each file says what it is" "$work/found"
+no_findings "each file says what it is" "$work/found"
 
 # Every source of the core is in the unity file.
 for file in src/base src/mesh src/surface src/sample src/atlas src/plane src/result src/relax src/pipeline src/c; do
@@ -109,22 +96,22 @@ for file in src/base src/mesh src/surface src/sample src/atlas src/plane src/res
     grep -qF "\"${source#src/}\"" src/isolod.cpp || echo "$source: not in src/isolod.cpp"
   done
 done >"$work/found"
-verdict "the unity file holds every source" "$work/found"
+no_findings "the unity file holds every source" "$work/found"
 
 # A shared library shows what is marked, so every public function is.
 grep -nE '^[A-Za-z_].*\(' include/isolod/*.h |
   grep -vE ':(ISOLOD_API|inline|constexpr|template|static|typedef|class|struct|enum) ' >"$work/found"
-verdict "public functions are marked ISOLOD_API" "$work/found"
+no_findings "public functions are marked ISOLOD_API" "$work/found"
 
 while read -r file; do sed -n 's/^inline namespace \([a-z0-9_]*\) {$/\1/p' "$file"; done <"$work/files" | sort | uniq -c |
   sed 1d >"$work/found"
-verdict "all lies in one version namespace" "$work/found"
+no_findings "all lies in one version namespace" "$work/found"
 
 output="$(sed -n 's/^#define ISOLOD_OUTPUT_VERSION \([0-9]*\)$/\1/p' include/isolod/version.h)"
 : >"$work/found"
 grep -qE "^- Output ${output:-none}: [a-z]" README.md ||
   echo "README.md: no line '- Output $output: ...' in its change list" >"$work/found"
-verdict "the change list says why the output version is what it is" "$work/found"
+no_findings "the change list says why the output version is what it is" "$work/found"
 
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -94,6 +94,16 @@ bad() {
   echo "BAD $1"
 }
 
+# no_findings NAME FILE: good where the file of findings is empty.
+no_findings() {
+  if [ -s "$2" ]; then
+    bad "$1"
+    sed 's/^/      /' "$2"
+  else
+    good "$1"
+  fi
+}
+
 # add_counts FILE: adds the last line `N passed, N failed` of a log to $passed and $failed; without one, a failure.
 add_counts() {
   line="$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$1" | tail -n 1)"

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "base/array_bytes.h"
 #include "base/status.h"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -24,18 +25,12 @@
 namespace isolod {
 inline namespace v1 {
 
-namespace {
-constexpr std::size_t alignment = 16;
-
-std::size_t aligned(std::size_t bytes) { return (bytes + alignment - 1) / alignment * alignment; }
-}
-
 Arena::Arena(void* block, std::size_t bytes) {
-  const std::size_t misfit = reinterpret_cast<std::uintptr_t>(block) % alignment;
-  const std::size_t skipped = misfit == 0 ? 0 : alignment - misfit;
-  if (block == nullptr || bytes < skipped + alignment) return;
+  const std::size_t misfit = reinterpret_cast<std::uintptr_t>(block) % arena_alignment;
+  const std::size_t skipped = misfit == 0 ? 0 : arena_alignment - misfit;
+  if (block == nullptr || bytes < skipped + arena_alignment) return;
   block_ = static_cast<unsigned char*>(block) + skipped;
-  capacity_ = (bytes - skipped) / alignment * alignment;
+  capacity_ = (bytes - skipped) / arena_alignment * arena_alignment;
   ISOLOD_POISON(block_, capacity_);
 }
 
@@ -43,7 +38,7 @@ Status Arena::take(std::size_t count, std::size_t size, bool at_front, void*& pi
   constexpr std::size_t most = SIZE_MAX / 2;
   if (count > most / size) return fail(Status::out_of_memory, Element::byte, most);
   const std::size_t bytes = aligned(count * size);
-  if (bytes > free_bytes()) return fail(Status::out_of_memory, Element::byte, used() + bytes + alignment);
+  if (bytes > free_bytes()) return fail(Status::out_of_memory, Element::byte, used() + bytes + arena_alignment);
   if (at_front) {
     piece = block_ + front_;
     front_ += bytes;

@@ -1,4 +1,4 @@
-// What arrays take in the arena: memory is planned with these before anything is allocated.
+// What arrays take in the arena: it allocates by these, and memory is planned with them before anything is allocated.
 #pragma once
 
 #include <cstddef>
@@ -6,10 +6,18 @@
 namespace isolod {
 inline namespace v1 {
 
-/// Bytes of one piece of `count` elements, rounded up as the arena does.
+/// Every piece of the arena begins at a multiple of this.
+constexpr std::size_t arena_alignment = 16;
+
+/// What a piece of so many bytes takes.
+constexpr std::size_t aligned(std::size_t bytes) {
+  return (bytes + arena_alignment - 1) / arena_alignment * arena_alignment;
+}
+
+/// What an array of `count` elements takes.
 template <class T>
 constexpr std::size_t array_bytes(std::size_t count) {
-  return (count * sizeof(T) + 15) / 16 * 16;
+  return aligned(count * sizeof(T));
 }
 
 /// The greater of two sizes.

@@ -356,7 +356,7 @@ Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   return {};
 }
 
-bool is_thinned(const State& s) { return s.plan.splits == 0 && s.plan.first_count > s.options.vertex_count; }
+bool is_thinned(const State& s) { return s.plan.splits == 0 && s.plan.is_thinned(); }
 
 WorstFacesOptions polish_options(const State& s) {
   const bool is_few = is_thinned(s) && 4 * std::uint64_t{s.options.vertex_count} < s.plan.first_count;

@@ -98,7 +98,7 @@ RelaxOptions Levels::relax_options() const {
   RelaxOptions options;
   options.weight = options_.weight;
   options.line_rate = line_rate(level_);
-  options.guards_faces = is_thinned();
+  options.guards_faces = plan_.is_thinned();
   options.parallel = options_.parallel;
   return options;
 }
@@ -198,7 +198,7 @@ bool Levels::has_slipped(const Samples& samples) const {
 /// where the only level is too coarse for its shape: there the tips are folds.
 bool Levels::unfolds() const {
   const bool is_time = iteration_ % unfold_period == 0 && iteration_ + quiet_end <= iterations(level_);
-  return plan_.splits > 0 && !is_thinned() && is_time && relaxation_.report().bent > 0;
+  return plan_.splits > 0 && !plan_.is_thinned() && is_time && relaxation_.report().bent > 0;
 }
 
 Status Levels::unfold(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) const {

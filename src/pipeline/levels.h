@@ -21,6 +21,8 @@ struct LevelPlan {
   std::uint32_t splits = 0;
   std::uint32_t count[most_splits + 1] = {};
   std::uint32_t first_count = 0;  ///< of the first mesh: as many as level 0, or more, which are then thinned out
+
+  bool is_thinned() const { return first_count > count[0]; }
 };
 
 /// As many splits, up to `most_splits`, as leave the first level at least `least_first` samples, 37 % of them at
@@ -84,7 +86,6 @@ class Levels {
   bool is_folded(const Surface& surface, const Halfedges& mesh, const Samples& samples) const;
   Status unfold(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) const;
   void relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena);
-  bool is_thinned() const { return plan_.first_count > plan_.count[0]; }
   bool is_finest() const { return level_ == plan_.splits; }
   std::uint32_t iterations(std::uint32_t level) const;
   std::uint32_t iterations_for_lines(const Samples& samples) const;

@@ -229,7 +229,7 @@ LateStages plan_late_stages(const RunSizes& sizes, const LevelPlan& levels, Span
 namespace {
 
 /// Of a block: it may begin and end where the arena cannot use the first and the last bytes.
-constexpr std::size_t misfit = 32;
+constexpr std::size_t misfit = 2 * arena_alignment;
 
 void raise_stage(MemoryPlan& plan, const char* name, std::size_t bytes) {
   std::size_t at = 0;

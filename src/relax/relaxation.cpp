@@ -291,8 +291,9 @@ bool Relaxation::step() {
       const auto settle = [&](SampleId i) { tiles_.settle(*mesh_, site_, tiles_.face(i.value)); };
       if (!covers_) {
         end_tiles();
-      } else if (over<SampleId>(tiles_.sweep_count(), settle))
+      } else if (over<SampleId>(tiles_.sweep_count(), settle)) {
         phase_ = Phase::gather;
+      }
       return false;
     }
     case Phase::gather: {

@@ -119,11 +119,12 @@ struct Run {
 };
 
 /// One whole run in a block of that many bytes; 0: what required_memory says.
-inline Run run(const isolod::MeshView& view, const isolod::Options& options, std::size_t bytes = 0) {
+inline Run run(const isolod::MeshView& view, const isolod::Options& options, std::size_t bytes = 0,
+               const isolod::Hooks& hooks = {}) {
   if (bytes == 0) bytes = required_memory(view.vertex_count, view.triangle_count, options);
   Block block(bytes);
   Run out;
-  out.status = remesh(view, options, out.kept.sink(), &out.report, block.arena);
+  out.status = remesh(view, options, out.kept.sink(), &out.report, block.arena, hooks);
   CHECK(block.arena.used() == 0);
   if (!out.status.is_ok()) CHECK(out.kept.calls == 0);
   return out;

@@ -13,18 +13,6 @@ install_missing || exit 1
 out=build/port/symbols
 mkdir -p "$out"
 
-# verdict NAME FILE: passes where the file of findings is empty.
-verdict() {
-  if [ -s "$2" ]; then
-    failed=$((failed + 1))
-    echo "BAD $1"
-    sed 's/^/      /' "$2" | head -n 20
-  else
-    passed=$((passed + 1))
-    echo "ok  $1"
-  fi
-}
-
 # asked_of FILE: what an object or archive refers to and does not define itself.
 asked_of() {
   nm "$1" | awk 'NF == 2 && $1 == "U" { wanted[$2] = 1 } NF == 3 { defined[$3] = 1 }
@@ -41,9 +29,9 @@ look_at() {
   else
     asked_of "$2" | grep -vE "$allowed" >"$out/found"
   fi
-  verdict "$1 asks for nothing but memory copies" "$out/found"
+  no_findings "$1 asks for nothing but memory copies" "$out/found"
   nm -C "$2" 2>/dev/null | grep -E '^[0-9a-f]+ [bBdDcCsS] ' >"$out/found"
-  verdict "$1 keeps no state" "$out/found"
+  no_findings "$1 keeps no state" "$out/found"
 }
 
 # The look itself must find what it is for.
@@ -60,7 +48,7 @@ for symbol in _Znwm printf __cxa_throw _ZTIi __gxx_personality_v0 _ZNSt6thread; 
 done
 nm "$out/sample.o" | grep -qE ' [bB] calls$' || echo "a variable is not found" >>"$out/missed"
 touch "$out/missed"
-verdict "a heap, exceptions, printing, threads and state are found where they are" "$out/missed"
+no_findings "a heap, exceptions, printing, threads and state are found where they are" "$out/missed"
 rm -f "$out/missed"
 
 cmake -S . -B "$out/archive" -G Ninja -DCMAKE_BUILD_TYPE=Release -DISOLOD_TESTS=OFF -DISOLOD_TOOLS=OFF \

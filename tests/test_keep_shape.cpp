@@ -228,7 +228,7 @@ TEST_CASE("keep_shape: too little memory changes nothing") {
   std::size_t failures = 0;
   for (std::size_t bytes = 0;; bytes += 48) {
     support::Block small(bytes + 16);
-    Arena arena = small.arena;
+    Arena& arena = small.arena;
     const Status status =
         keep_line_shape(rim.surface, rim.backbones, 0.001, rim.samples, {rim.pinned.data(), rim.pinned.size()}, arena);
     CHECK(arena.used() == 0);

@@ -208,7 +208,7 @@ TEST_CASE("lloyd_line: too little memory changes nothing") {
   std::size_t failures = 0;
   for (std::size_t bytes = 0;; bytes += 48) {
     support::Block small(bytes + 16);
-    Arena arena = small.arena;
+    Arena& arena = small.arena;
     const Status status = relax_lines(rim.surface, rim.backbones, rim.samples, LloydWeight::equal, 3, arena);
     CHECK(arena.used() == 0);
     if (status.is_ok()) break;

@@ -46,11 +46,15 @@ struct ArenaMark {
 ///
 /// Nothing is constructed or destroyed: `T` must be trivially destructible, and what is handed out is not set to
 /// anything. Every piece is aligned to 16 bytes. A request that does not fit is `Status::out_of_memory`
-/// with the number of bytes that the block would have needed at that moment.
+/// with the number of bytes that the block would have needed at that moment. The block outlives the arena, and what was
+/// handed out stays as it is; a build under the address checker guards the free part for as long as the arena lives.
 class Arena {
  public:
   Arena() = default;
   ISOLOD_API Arena(void* block, std::size_t bytes);
+  ISOLOD_API ~Arena();
+  Arena(const Arena&) = delete;
+  Arena& operator=(const Arena&) = delete;
 
   /// Room for `count` results of type T.
   template <class T>

@@ -34,6 +34,8 @@ Arena::Arena(void* block, std::size_t bytes) {
   ISOLOD_POISON(block_, capacity_);
 }
 
+Arena::~Arena() { ISOLOD_UNPOISON(block_, capacity_); }
+
 Status Arena::take(std::size_t count, std::size_t size, bool at_front, void*& piece) {
   constexpr std::size_t most = SIZE_MAX / 2;
   if (count > most / size) return fail(Status::out_of_memory, Element::byte, most);

@@ -222,11 +222,9 @@ void Levels::relax(const Surface& surface, const Halfedges& mesh, const Samples&
   if (iteration_ % cover_period == cover_period - 1) relaxation_.cover_next();
   if (unfolds()) phase_ = Phase::unfold;
   if (iteration_ < last) return;
+  const bool is_bad = has_slipped(samples) || (is_finest() && is_folded(surface, mesh, samples));
+  phase_ = plan_.splits > 0 && is_bad ? Phase::unresolved : is_finest() ? Phase::done : Phase::level_end;
   arena.rewind_scratch(scratch_);
-  phase_ = is_finest() ? Phase::done : Phase::level_end;
-  if (plan_.splits > 0 && (has_slipped(samples) || (is_finest() && is_folded(surface, mesh, samples)))) {
-    phase_ = Phase::unresolved;
-  }
 }
 
 Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {

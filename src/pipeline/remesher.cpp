@@ -52,7 +52,7 @@ Status show_progress(Remesher::State& s) {
 }
 
 /// A run that starts again from a finer first mesh reports each stage once, with the time of all attempts and the most
-/// memory of any.
+/// memory of any. A stage that sends the run back has no result left to hash.
 void close_stage(Remesher::State& s) {
   std::size_t at = 0;
   while (at < s.report.stage_count && s.report.stages[at].name != stage_entries[s.stage].name) ++at;
@@ -61,7 +61,7 @@ void close_stage(Remesher::State& s) {
   const std::size_t most = at < s.report.stage_count ? stage.arena_bytes : 0;
   if (at == s.report.stage_count) ++s.report.stage_count;
   stage.name = stage_entries[s.stage].name;
-  stage.hash = stage_entries[s.stage].hash(s);
+  if (s.next_stage > s.stage) stage.hash = stage_entries[s.stage].hash(s);
   stage.seconds = before + now(s) - s.stage_start;
   stage.arena_bytes = most_of(most, s.arena->high_water());
   s.report.arena_bytes = most_of(s.report.arena_bytes, stage.arena_bytes);

@@ -88,6 +88,7 @@
 #include "result/output.cpp"
 #include "result/stitch.cpp"
 
+#include "relax/colours.cpp"
 #include "relax/drop_dead.cpp"
 #include "relax/face_score.cpp"
 #include "relax/insert.cpp"

@@ -13,6 +13,8 @@ constexpr std::size_t elements_a_piece = 4096;
 /// Visits the elements below `count` in order, a piece a call. It starts anew once it has come to the end.
 class Sweep {
  public:
+  bool is_at_start() const { return next_ == 0; }
+
   /// Calls visit(id) for the next piece; true when the last element has been visited.
   template <class Id, class Visit>
   bool over(std::size_t count, Visit visit) {
@@ -28,7 +30,7 @@ class Sweep {
   template <class Id, class Visit>
   bool over(const Parallel& parallel, std::size_t count, Visit visit) {
     if (!parallel.has_threads()) return over<Id>(count, visit);
-    constexpr std::size_t range = 512;
+    constexpr std::size_t range = 128;
     parallel.run(static_cast<std::uint32_t>((count + range - 1) / range), [&](std::uint32_t piece) {
       const std::size_t begin = piece * range, end = count - begin < range ? count : begin + range;
       for (std::size_t i = begin; i < end; ++i) visit(Id{static_cast<std::uint32_t>(i)});

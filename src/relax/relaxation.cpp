@@ -35,12 +35,13 @@ Status Relaxation::begin(const Surface& surface, const Backbones* features, Tria
   mesh_ = &mesh;
   samples_ = samples;
   options_ = options;
-  phase_ = Phase::look;
+  phase_ = Phase::colours;
   sweep_ = {};
   round_ = 0;
   closes_loop_ = covers_ = false;
   ISOLOD_TRY(loop_.begin(mesh, samples, arena));
   ISOLOD_TRY(tiles_.begin(surface, samples, arena));
+  ISOLOD_TRY(colours_.begin(samples.count(), arena));
   ISOLOD_TRY(arena.scratch(samples.count(), is_bent_));
   ISOLOD_TRY(arena.scratch(samples.count(), has_moved_));
   ISOLOD_TRY(arena.scratch(mesh.mesh.halfedge_count(), wants_));
@@ -49,8 +50,9 @@ Status Relaxation::begin(const Surface& surface, const Backbones* features, Tria
 }
 
 std::size_t Relaxation::bytes(std::size_t surface_face_count, std::size_t sample_count, std::size_t face_count) {
-  const std::size_t own = 2 * array_bytes<std::uint8_t>(sample_count) + array_bytes<std::uint8_t>(3 * face_count) +
-                          array_bytes<Site>(sample_count) + array_bytes<StarCell>(sample_count);
+  const std::size_t own = Colours::bytes(sample_count) + 2 * array_bytes<std::uint8_t>(sample_count) +
+                          array_bytes<std::uint8_t>(3 * face_count) + array_bytes<Site>(sample_count) +
+                          array_bytes<StarCell>(sample_count);
   return MassLoop::bytes(sample_count) + Tiles::bytes(surface_face_count, sample_count) +
          most_of(own, Tiles::begin_bytes(surface_face_count));
 }
@@ -252,6 +254,7 @@ void Relaxation::flip_edge(HalfedgeId h) {
   if (!wants_[h] || !wants_flip(h)) return;
   flip(*mesh_, h);
   ++flips_;
+  colours_.mend(mesh_->mesh, mesh_->mesh.origin[prev(h)], mesh_->mesh.target(prev(h)));
 }
 
 RelaxReport Relaxation::report() const {
@@ -271,13 +274,16 @@ RelaxReport Relaxation::report() const {
 
 void Relaxation::end_tiles() {
   if (closes_loop_) loop_.start();
-  phase_ = closes_loop_ ? Phase::loop : Phase::moves;
+  phase_ = closes_loop_ ? Phase::loop : Phase::order;
   closes_loop_ = false;
 }
 
 bool Relaxation::step() {
   const std::size_t count = samples_.count(), edges = mesh_->mesh.halfedge_count();
   switch (phase_) {
+    case Phase::colours:
+      if (sweep_.over<VertexId>(count, [&](VertexId v) { colours_.colour(mesh_->mesh, v); })) phase_ = Phase::look;
+      return false;
     case Phase::look:
       if (!over<SampleId>(count, [&](SampleId s) { look(s); })) return false;
       flips_ = 0;
@@ -303,12 +309,13 @@ bool Relaxation::step() {
     }
     case Phase::loop:
       loop_.step(cell_);
-      if (loop_.done()) phase_ = Phase::moves;
+      if (loop_.done()) phase_ = Phase::order;
       return false;
-    // One after the other: each keeps its faces upright beside what others have come to. All at once from the old
-    // places, a coarse mesh comes off tips (ears of the bunny at 1,000).
+    case Phase::order:
+      if (colours_.sort(sweep_)) phase_ = Phase::moves;
+      return false;
     case Phase::moves:
-      if (sweep_.over<SampleId>(count, [&](SampleId s) { move(s); })) phase_ = Phase::find_flips;
+      if (colours_.over(sweep_, options_.parallel, [&](SampleId s) { move(s); })) phase_ = Phase::find_flips;
       return false;
     case Phase::find_flips:
       if (over<HalfedgeId>(edges, [&](HalfedgeId h) { look_at_edge(h); })) phase_ = Phase::flips;

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <string>
+#include <thread>
 
 #include "isolod/failure.h"
 #include "isolod/progress.h"
@@ -50,6 +51,11 @@ Options options_from(const Arguments& arguments, std::uint32_t vertices) {
   return options;
 }
 
+unsigned threads_from(const Arguments& arguments) {
+  const auto asked = static_cast<unsigned>(arguments.count("--threads", 1, 256));
+  return asked != 0 ? asked : std::thread::hardware_concurrency();
+}
+
 std::string repair_note(const isolod::RepairReport& repair) {
   const struct {
     std::uint32_t count;
@@ -88,6 +94,7 @@ std::vector<OptionRule> wish_rules() {
       {"--fit", nullptr, "vertices leave the surface where that lessens the distance; for few vertices"},
       {"--weld", nullptr, "merge vertices at exactly equal positions first"},
       {"--memory", "SIZE", "the block to work in, such as 64M: exactly that; chosen by itself when not given"},
+      {"--threads", "N", "threads to work on, 0 for one a core; 1. The result is the same for any number"},
       {"--ascii", nullptr, "write PLY or STL as text"},
       hash_rule(),
       {"--quiet", nullptr, "no progress, no summary; errors only"}};
@@ -113,6 +120,7 @@ RunSettings settings_from(const Arguments& arguments, std::uint64_t vertices) {
   RunSettings settings;
   settings.options = options_from(arguments, static_cast<std::uint32_t>(vertices));
   settings.memory_bytes = arguments.bytes("--memory", 0);
+  settings.threads = threads_from(arguments);
   settings.show_progress = !arguments.has("--quiet") && errors_go_to_terminal();
   return settings;
 }

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "isolod/progress.h"
+#include "isolod/workers.h"
 
 namespace tool {
 
@@ -62,6 +63,7 @@ std::size_t enough_memory(const isolod::MeshView& view, const RunSettings& setti
 struct Watcher {
   ProgressLine line;
   std::vector<LloydSum>& lloyd;
+  Workers workers;
 };
 
 bool show_progress(void* context, const char* stage, double share) {
@@ -82,6 +84,10 @@ void add_lloyd(void* context, const isolod::LloydReport& report) {
   sum.greatest_move = std::max(sum.greatest_move, report.greatest_move);
 }
 
+void run_parallel(void* context, std::uint32_t count, Workers::Piece piece, void* data) {
+  static_cast<Watcher*>(context)->workers.run(count, piece, data);
+}
+
 /// One attempt in a block of that many bytes. The block is not cleared: pages that are never written cost nothing.
 void attempt(const isolod::MeshView& view, const RunSettings& settings, std::size_t bytes, RunOutcome& outcome) {
   outcome = RunOutcome();
@@ -92,11 +98,12 @@ void attempt(const isolod::MeshView& view, const RunSettings& settings, std::siz
     return;
   }
   isolod::Arena arena(block.get(), bytes);
-  Watcher watcher{ProgressLine(settings.show_progress), outcome.lloyd};
+  Watcher watcher{ProgressLine(settings.show_progress), outcome.lloyd, Workers(settings.threads)};
   isolod::Hooks hooks;
   hooks.context = &watcher;
   hooks.progress = show_progress;
   hooks.clock = clock_of_run;
+  if (settings.threads > 1) hooks.parallel_for = run_parallel;
   if (settings.watch_lloyd) hooks.lloyd = add_lloyd;
   std::vector<isolod::LodRequest> requests = requests_of(settings, outcome);
   const double start = now_seconds();
@@ -134,17 +141,13 @@ isolod::Status plan_run(const isolod::MeshView& view, const RunSettings& setting
 }
 
 RunOutcome run_remesh(const isolod::MeshView& view, const RunSettings& settings) {
+  const bool is_given = settings.memory_bytes != 0;
+  const std::size_t bytes = is_given ? settings.memory_bytes : enough_memory(view, settings);
   RunOutcome outcome;
-  if (settings.memory_bytes != 0) {
-    attempt(view, settings, settings.memory_bytes, outcome);
-    return outcome;
-  }
-  isolod::MemoryPlan plan;
-  const bool is_planned = plan_run(view, settings, plan).is_ok();
-  const std::size_t bytes = is_planned ? plan.bytes : enough_memory(view, settings);
   attempt(view, settings, bytes, outcome);
   const Status& status = outcome.status;
-  if (status == Status::out_of_memory && status.element == isolod::Element::byte && status.value > bytes) {
+  const bool wants_more = status == Status::out_of_memory && status.element == isolod::Element::byte;
+  if (wants_more && !is_given && status.value > bytes) {
     attempt(view, settings, static_cast<std::size_t>(status.value), outcome);
   }
   return outcome;

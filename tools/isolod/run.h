@@ -33,7 +33,8 @@ struct LloydSum {
 struct RunSettings {
   isolod::Options options;
   std::vector<std::uint32_t> lods;  ///< vertices of each level of detail; empty: one mesh, as the options say
-  std::size_t memory_bytes = 0;     ///< 0: as planned, and once more with what the status asks for
+  std::size_t memory_bytes = 0;  ///< 0: enough for any input of that size, and once more with what the status asks for
+  unsigned threads = 1;
   bool show_progress = false;
   bool watch_lloyd = false;  ///< fill `RunOutcome::lloyd`, which takes time
 };

@@ -34,7 +34,7 @@ struct Looped {
   void close() {
     loop.start();
     int steps = 0;
-    while (!loop.done() && steps++ < 10000) loop.step(support::span_of(cell));
+    while (!loop.done() && steps++ < 10000) loop.step(support::span_of(cell), {});
     CHECK(loop.done());
     naive();
   }

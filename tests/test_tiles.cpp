@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "support/meshed.h"
+#include "support/threads.h"
 
 using namespace isolod;
 using support::Meshed;
@@ -16,7 +17,8 @@ namespace {
 /// Tiles over a coarse mesh, with sweeps over all faces. The weight of sites plays no part.
 struct Tiled : Meshed {
   Tiled(Piece& on, const Soup& coarse) : Meshed(on, coarse), faces(on.surface.mesh.face_count()) {
-    for (std::uint32_t s = 0; s < samples.count(); ++s) site.push_back({at(s), 1, 1, area_vector(piece.surface, face_of(samples, SampleId{s}))});
+    for (std::uint32_t s = 0; s < samples.count(); ++s)
+      site.push_back({at(s), 1, 1, area_vector(piece.surface, face_of(samples, SampleId{s}))});
     bent.assign(samples.count(), 0);
     REQUIRE(tiles.begin(piece.surface, samples, piece.block.arena).is_ok());
   }
@@ -24,7 +26,9 @@ struct Tiled : Meshed {
     cell.assign(samples.count(), StarCell{{0, 0, 0}, 0, 0, 0});
     const Span<const std::uint8_t> is_bent{bent.data(), bent.size()};
     for (FaceId f : Ids<FaceId>(faces)) tiles.settle(mesh, support::span_of(site), f);
-    for (FaceId f : Ids<FaceId>(faces)) tiles.gather(support::span_of(site), f, is_bent, support::span_of(cell));
+    Sweep pass;
+    while (!tiles.gather(pass, parallel, support::span_of(site), is_bent, support::span_of(cell))) {
+    }
   }
   Vec3 middle(FaceId f) const { return position_of(piece.surface, {f, 1.0 / 3, 1.0 / 3}); }
   double way_to(FaceId f, SampleId s) const { return distance(middle(f), site[s.value].position); }
@@ -37,6 +41,7 @@ struct Tiled : Meshed {
   }
 
   std::size_t faces;
+  Parallel parallel;
   std::vector<Site> site;
   std::vector<std::uint8_t> bent;
   std::vector<StarCell> cell;
@@ -178,4 +183,26 @@ TEST_CASE("tiles: a sample on the other side of a sheet is not nearer unless it 
   }
   CHECK(near_other > 500);
   CHECK(found > 0.9 * double(tiled.faces));  // neighbours do not lead everywhere
+}
+
+TEST_CASE("tiles: cells gathered on threads are the same to the bit") {
+  Piece sphere(support::made_soup("sphere", 5120));
+  Tiled alone(sphere, support::made_soup("sphere", 320)), shared(sphere, support::made_soup("sphere", 320));
+  support::Threads threads{3};
+  FloatEnvironment environment;
+  const ArithmeticScope scope(environment);
+  shared.parallel = {&threads, support::run_threads, &environment};
+  for (Tiled* tiled : {&alone, &shared}) {
+    for (std::size_t s = 0; s < tiled->bent.size(); s += 3) tiled->bent[s] = 1;
+    tiled->sweep();
+  }
+  CHECK(threads.calls == 1);
+  for (SampleId s : Ids<SampleId>(alone.cell.size())) {
+    CHECK(alone.cell[s.value].weight == shared.cell[s.value].weight);
+    CHECK(alone.cell[s.value].moment.x == shared.cell[s.value].moment.x);
+    CHECK(alone.tiles.reach(s).face == shared.tiles.reach(s).face);
+    CHECK(alone.tiles.reach(s).squared > 0);
+  }
+  CHECK(alone.cell[0].weight > 0);
+  CHECK(alone.cell[1].weight == 0);
 }

@@ -7,6 +7,8 @@ inline namespace v1 {
 
 namespace {
 
+constexpr std::uint32_t near_iterations = 20;  // of a level that is almost one of the chain, which is relaxed already
+
 template <class T>
 Status copy(Span<T>& span, Arena& arena) {
   const Span<T> from = span;
@@ -83,7 +85,7 @@ void Lods::begin_relax() {
   options.weight = options_.weight;
   options.line_rate = solve_rates(integrals_, plan.first_count, Calibration::corrected).line;
   options.parallel = parallel_;
-  options.only_iterations = is_near_ ? options.fine_iterations : options.coarse_iterations;
+  options.only_iterations = is_near_ ? near_iterations : options.coarse_iterations;
   levels_.begin(plan, options);
   phase_ = Phase::relax;
 }

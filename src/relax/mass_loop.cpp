@@ -63,7 +63,7 @@ double MassLoop::average_around(SampleId s) const {
   return 0.5 * (error_[s] + sum / count);
 }
 
-void MassLoop::step(Span<const StarCell> cell) {
+void MassLoop::step(Span<const StarCell> cell, const Parallel& parallel) {
   const std::size_t count = samples_.count();
   switch (phase_) {
     case Phase::masses:
@@ -77,11 +77,11 @@ void MassLoop::step(Span<const StarCell> cell) {
       const auto fill = [&](SampleId s) {
         if (!is_counted(cell[s])) error_[s] = mean();
       };
-      if (sweep_.over<SampleId>(count, fill)) phase_ = Phase::average;
+      if (sweep_.over<SampleId>(parallel, count, fill)) phase_ = Phase::average;
       return;
     }
     case Phase::average: {
-      if (!sweep_.over<SampleId>(count, [&](SampleId s) { averaged_[s] = average_around(s); })) return;
+      if (!sweep_.over<SampleId>(parallel, count, [&](SampleId s) { averaged_[s] = average_around(s); })) return;
       const Span<double> swap = error_;
       error_ = averaged_;
       averaged_ = swap;
@@ -93,7 +93,7 @@ void MassLoop::step(Span<const StarCell> cell) {
         const double c = samples_.correction[s] + loop_gain * (error_[s] - mean());
         samples_.correction[s] = greater(-most_correction, smaller(most_correction, c));
       };
-      if (!sweep_.over<SampleId>(count, correct)) return;
+      if (!sweep_.over<SampleId>(parallel, count, correct)) return;
       phase_ = Phase::done;
       return;
     }

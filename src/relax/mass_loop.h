@@ -28,7 +28,7 @@ class MassLoop {
     round_ = 0;
   }
   /// A range of samples.
-  void step(Span<const StarCell> cell);
+  void step(Span<const StarCell> cell, const Parallel& parallel);
   bool done() const { return phase_ == Phase::done; }
 
  private:

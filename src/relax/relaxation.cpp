@@ -18,7 +18,7 @@ constexpr std::uint32_t flip_rounds = 2;
 constexpr double least_cosine = 0.1;      // between a face and its star, for it to count as not turned over
 constexpr double least_upright = 0.5;     // length of the sum of a star's area vectors over the sum of their lengths
 constexpr double large_cell = 1.8;        // times the mean mass
-constexpr double far_reach = 0.8;         // wished edge lengths; a regular cell reaches 0.58
+constexpr double far_reach = 1.0;         // wished edge lengths; a regular cell reaches 0.58
 constexpr double pull = 0.3;              // of the way to what is far
 constexpr double longest_step = 0.25;     // wished edge lengths
 constexpr double most_of_interval = 0.3;  // that a sample slides at once
@@ -205,7 +205,7 @@ Vec3 Relaxation::step_of(SampleId s, Vec3 normal) const {
   const Vec3 way = 1 / cell_[s].weight * cell_[s].moment;
   if (is_bent_[s]) return flatten(way, area_vector(*surface_, samples_.place[s].face));
   if (samples_.held[s]) return (1 - evening) * options_.step * way + evening * way_to_even(vertex(s));
-  if (covers_ && reach_of(s) > far_reach) return pull_of(s);
+  if (reach_of(s) > far_reach) return pull_of(s);
   return options_.step * flatten(way, normal);
 }
 
@@ -287,7 +287,7 @@ bool Relaxation::step() {
     case Phase::look:
       if (!over<SampleId>(count, [&](SampleId s) { look(s); })) return false;
       flips_ = 0;
-      tiles_.clear_reach();
+      if (covers_) tiles_.clear_reach();
       phase_ = Phase::cells;
       return false;
     case Phase::cells:
@@ -302,13 +302,11 @@ bool Relaxation::step() {
       }
       return false;
     }
-    case Phase::gather: {
-      const auto gather = [&](SampleId i) { tiles_.gather(site_, tiles_.face(i.value), is_bent_, cell_); };
-      if (sweep_.over<SampleId>(tiles_.sweep_count(), gather)) end_tiles();
+    case Phase::gather:
+      if (tiles_.gather(sweep_, options_.parallel, site_, is_bent_, cell_)) end_tiles();
       return false;
-    }
     case Phase::loop:
-      loop_.step(cell_);
+      loop_.step(cell_, options_.parallel);
       if (loop_.done()) phase_ = Phase::order;
       return false;
     case Phase::order:

@@ -55,7 +55,7 @@ class Relaxation {
   /// The next iteration feeds the cells' masses back into the corrections (design: closed loop).
   void close_loop_next() { closes_loop_ = true; }
   /// In the next iteration the surface is given to the samples (`Tiles`): those whose stars are folded up move, and
-  /// those whose cells reach too far, as at a tip that the mesh has slipped off, go there.
+  /// those whose cells reach too far, as at a tip that the mesh has slipped off, go there until it is given anew.
   void cover_next() { covers_ = true; }
 
   /// A range of samples, faces or edges; true at the end of the iteration.

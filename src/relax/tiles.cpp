@@ -19,6 +19,7 @@ Status Tiles::begin(const Surface& surface, const Samples& samples, Arena& arena
   stride_ = stride > 1 ? static_cast<std::uint32_t>(stride) : 1;
   ISOLOD_TRY(arena.scratch(count, owner_));
   ISOLOD_TRY(arena.scratch(samples.count(), reach_));
+  clear_reach();
   const ScratchScope scope(arena);
   Span<FaceId> queue;
   ISOLOD_TRY(arena.scratch(count, queue));
@@ -78,16 +79,34 @@ void Tiles::settle(const Triangulation& mesh, Span<const Site> site, FaceId f) {
   owner_[f] = best;
 }
 
-void Tiles::gather(Span<const Site> site, FaceId f, Span<const std::uint8_t> is_bent, Span<StarCell> cell) {
+void Tiles::add(FaceId f, const Site& site, bool is_bent, StarCell& cell) {
   const SampleId s = owner_[f];
-  if (s.is_none()) return;
   const Tile t = tile(f);
-  const double squared = far(t.middle, t.normal, site[s]);
+  const double squared = far(t.middle, t.normal, site);
   if (squared > reach_[s].squared) reach_[s] = {f, squared};
-  if (!is_bent[s]) return;
+  if (!is_bent) return;
   const double area = 0.5 * length(t.normal), weight = area * t.density * t.density;
-  cell[s].weight += weight;
-  cell[s].moment = cell[s].moment + weight * (t.middle - site[s].position);
+  cell.weight += weight;
+  cell.moment = cell.moment + weight * (t.middle - site.position);
+}
+
+/// With threads each piece of work looks at all faces and takes those of a range of samples: so each sample gets its
+/// faces in the same order.
+bool Tiles::gather(Sweep& sweep, const Parallel& parallel, Span<const Site> site, Span<const std::uint8_t> is_bent,
+                   Span<StarCell> cell) {
+  const auto add_within = [&](FaceId f, std::size_t begin, std::size_t end) {
+    const SampleId s = owner_[f];
+    if (begin <= s.value && s.value < end) add(f, site[s], is_bent[s], cell[s]);
+  };
+  if (!parallel.has_threads()) {
+    return sweep.over<SampleId>(sweep_count(), [&](SampleId i) { add_within(face(i.value), 0, site.count); });
+  }
+  constexpr std::size_t ranges = 8;
+  parallel.run(ranges, [&](std::uint32_t piece) {
+    const std::size_t begin = site.count * piece / ranges, end = site.count * (piece + std::size_t{1}) / ranges;
+    for (std::size_t i = 0; i < sweep_count(); ++i) add_within(face(i), begin, end);
+  });
+  return true;
 }
 
 }  // namespace v1

@@ -28,12 +28,13 @@ class Tiles {
 
   /// Looks for a nearer sample for face f among the neighbours of the one that it belongs to.
   void settle(const Triangulation& mesh, Span<const Site> site, FaceId f);
-  /// Adds face f to the reach of its sample, and to the cell of that where `is_bent` says so.
-  void gather(Span<const Site> site, FaceId f, Span<const std::uint8_t> is_bent, Span<StarCell> cell);
+  /// Adds faces to the reach of their samples, and to the cells of those that `is_bent` says; true when all are added.
+  bool gather(Sweep& sweep, const Parallel& parallel, Span<const Site> site, Span<const std::uint8_t> is_bent,
+              Span<StarCell> cell);
 
   /// How many faces a sweep visits: some two dozen a sample at most, `face(i)` the i-th of them.
   std::size_t sweep_count() const { return (owner_.count + stride_ - 1) / stride_; }
-  FaceId face(std::uint32_t i) const { return {i * stride_}; }
+  FaceId face(std::size_t i) const { return {static_cast<std::uint32_t>(i * stride_)}; }
 
   SampleId owner(FaceId f) const { return owner_[f]; }
   /// Forgets how far cells reach.
@@ -53,6 +54,7 @@ class Tiles {
     double density;
   };
   Tile tile(FaceId f) const;
+  void add(FaceId f, const Site& site, bool is_bent, StarCell& cell);
 
   const Surface* surface_ = nullptr;
   std::uint32_t stride_ = 1;

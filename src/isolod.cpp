@@ -109,6 +109,7 @@
 #include "relax/worst_faces.cpp"
 
 #include "pipeline/build_lods.cpp"
+#include "pipeline/chart_stage.cpp"
 #include "pipeline/charting.cpp"
 #include "pipeline/finish.cpp"
 #include "pipeline/first_mesh.cpp"

@@ -1,6 +1,6 @@
 // The narrated order of the stages: from the caller's triangles to the first mesh.
 #include "mesh/validate.h"
-#include "pipeline/memory_plan.h"
+#include "pipeline/chart_stage.h"
 #include "pipeline/stage_hashes.h"
 #include "pipeline/state.h"
 #include "relax/worst_faces.h"
@@ -294,55 +294,6 @@ Status step_diffuse(State& s, bool& done, std::uint64_t& units) {
   return index_edges(s.surface, s.backbones, *s.arena);
 }
 
-/// F = 2 V - B - 2 chi, B the samples on boundaries.
-std::size_t result_face_count(const State& s) {
-  std::int64_t boundary = 0;
-  for (std::size_t b = 0; b < s.backbones.count(); ++b) {
-    if (is_boundary(s.surface, s.backbones, b)) boundary += s.lines.interval_count(s.surface, s.backbones, b);
-  }
-  const std::int64_t faces =
-      2 * std::int64_t{s.plan.first_count} - boundary - 2 * s.integrate.integrals().euler_characteristic;
-  return faces > 0 ? static_cast<std::size_t>(faces) : 0;
-}
-
-/// Tells the caller of every iteration who asked for it; else nothing is measured.
-void relax_sites(State& s, std::uint32_t chart, Lloyd& lloyd) {
-  lloyd.untangle();
-  for (std::uint32_t i = 0; i < s.options.lloyd_iterations; ++i) {
-    LloydReport report;
-    report.chart = chart;
-    report.iteration = i;
-    lloyd.iterate(s.hooks.lloyd == nullptr ? nullptr : &report);
-    if (s.hooks.lloyd == nullptr) continue;
-    const CallbackScope scope(s.environment);
-    s.hooks.lloyd(s.hooks.context, report);
-  }
-}
-
-Status step_charts(State& s, bool& done, std::uint64_t& units) {
-  if (!s.stage_begun) {
-    ISOLOD_TRY(measure_run(s, s.sizes, *s.arena));
-    ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.plan.first_count, *s.arena));
-  }
-  const ScratchScope scope(*s.arena);
-  const std::size_t chart = s.piece++;
-  FlatChart flat;
-  ChartSites sites;
-  Lloyd lloyd;
-  ISOLOD_TRY(build_flat_chart(s.surface, s.atlas, s.maps, chart, flat, *s.arena));
-  ISOLOD_TRY(triangulate_sites(s.sampled(), flat, chart, sites, *s.arena));
-  const std::uint32_t first_movable = s.numbers.node_count + s.numbers.line_count;
-  ISOLOD_TRY(lloyd.begin(s.surface, flat, sites, first_movable, {s.options.weight, s.options.centroids, 1}, *s.arena));
-  relax_sites(s, static_cast<std::uint32_t>(chart), lloyd);
-  for (VertexId v : Ids<VertexId>(sites.sample.count)) {
-    if (sites.sample[v].value >= first_movable) s.places[sites.sample[v].value - first_movable] = lloyd.lift(v);
-  }
-  s.stage_share = static_cast<double>(s.piece) / static_cast<double>(s.atlas.chart_count());
-  units = flat.chart.faces.count * 10 + sites.sample.count * (10 + 4 * std::uint64_t{s.options.lloyd_iterations});
-  done = s.piece == s.atlas.chart_count();
-  return s.stitch.add(sites);
-}
-
 Status step_stitch(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
   if (s.piece++ == 0) {
@@ -427,7 +378,7 @@ Status step_levels(State& s, bool& done, std::uint64_t& units) {
     LevelOptions options;
     options.line_rate = s.rates.line;
     options.weight = s.options.weight;
-    options.parallel = {s.hooks.context, s.hooks.parallel_for, &s.environment};
+    options.parallel = parallel_of(s);
     s.levels.begin(s.plan, options);
     s.lods.begin(s.coarser, s.integrate.integrals(), s.options, options.parallel);
   }

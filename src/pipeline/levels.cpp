@@ -17,7 +17,7 @@ constexpr double most_on_lines = 0.37;  // of a first level's samples, where the
 constexpr std::uint32_t trial_iterations = 15;
 constexpr double most_bent_first = 0.01;  // of the samples of a first level: a split straightens most of these
 constexpr double most_bent = 0.001;       // of those of a later one: what is still folded stays so
-constexpr double most_large = 0.0005;     // of the samples, at the end of any level
+constexpr double most_large = 0.002;      // of the samples, at the end of any level
 constexpr double most_folded = 0.002;     // of the faces of the result, where there is a finer level to start from
 constexpr std::uint32_t unfold_period = 16;
 constexpr std::uint32_t cover_period = 5;
@@ -25,7 +25,7 @@ constexpr std::uint32_t loop_period = 10;  // iterations from one closing of the
 constexpr std::uint32_t quiet_end = 5;     // iterations of a level behind the last one
 
 /// Iterations of the last level besides: as many as its share of samples on lines, and no more than `most_for_lines`.
-constexpr std::size_t for_all_on_lines = 640, most_for_lines = 160;
+constexpr std::size_t for_all_on_lines = 900, most_for_lines = 240;
 
 /// V by the calibration that counts triangles, for a line rate.
 double count_at(const DensityIntegrals& integrals, double line_rate) {

@@ -1,6 +1,6 @@
 // What the stages behind the diffusion will take, from what is known before them.
 //
-// A plan runs the first stages as they are: analysis, atlas, lines and diffusion take a tenth of a run's time, and what
+// A plan runs the first stages as they are: analysis, atlas, lines and diffusion take a fifth of a run's time, and what
 // they need is then measured. All that comes later is made of samples, whose numbers are known: each stage says beside
 // its code what it takes for so many, and here these are added up in the order in which they follow each other.
 // A run that has to begin again from a finer first mesh is planned for as well.

@@ -79,6 +79,9 @@ Status announce(const ResultMesh& mesh, const MeshSink& sink);
 /// Gives a mesh to a sink, in the caller's floating-point mode; sink_failed where a callback says so.
 Status deliver(const ResultMesh& mesh, const MeshSink& sink);
 
+/// The caller's threads, for a part of the run.
+inline Parallel parallel_of(Remesher::State& s) { return {s.hooks.context, s.hooks.parallel_for, &s.environment}; }
+
 /// A stage of the run: its name and its work, piece by piece. `units` is what the piece cost.
 struct StageEntry {
   const char* name;

@@ -14,6 +14,7 @@
 #include "isolod/failure.h"
 #include "isolod/files.h"
 #include "isolod/shapes.h"
+#include "pieces.h"
 
 namespace {
 
@@ -35,6 +36,7 @@ const CommandRule& bench_rule() {
        {"--repeat", "K", "how often; the median counts; 5"},
        {"--against", "'COMMAND {in} {out} {n}'", "another program, run in turn with isolod"},
        {"--isolod", "PATH", "the program to run in turn; beside this one when not given"},
+       {"--pieces", nullptr, "instead: by stage, how many pieces of work, and the longest"},
        {"--no-header", nullptr, "leave the CSV's first line out, to add to a file"}}};
   return rule;
 }
@@ -121,6 +123,19 @@ int bench_stages(const Job& job, bool header) {
   return tool::exit_ok;
 }
 
+int bench_pieces(const Job& job, bool header) {
+  const tool::InputMesh mesh = tool::read_mesh_file(job.path);
+  std::vector<bench::StagePieces> stages;
+  const isolod::Status status = bench::time_pieces(mesh.view(), job.settings.options, job.repeats, stages);
+  if (!status.is_ok()) tool::fail_status(job.name, status);
+  if (header) std::puts("model,vertices,stage,pieces,longest_milliseconds");
+  for (const bench::StagePieces& s : stages) {
+    std::printf("%s,%u,%s,%zu,%.3f\n", job.name.c_str(), job.settings.options.vertex_count, s.stage.c_str(), s.count,
+                1e3 * s.longest_seconds);
+  }
+  return tool::exit_ok;
+}
+
 struct Series {
   std::vector<double> wall, cpu, peak;
 
@@ -192,6 +207,7 @@ int run(int count, char** words) {
   const TemporaryFile room(".obj");
   find_input(arguments, room, job);
   const bool header = !arguments.has("--no-header");
+  if (arguments.has("--pieces")) return bench_pieces(job, header);
   return arguments.has("--against") ? bench_against(job, arguments, words[0], header) : bench_stages(job, header);
 }
 

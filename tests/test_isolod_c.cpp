@@ -8,6 +8,7 @@
 
 #include "c/mirror.h"
 #include "support/stages.h"
+#include "support/threads.h"
 
 using namespace isolod;
 using support::made;
@@ -253,6 +254,66 @@ TEST_CASE("isolod_c: levels of detail as C++ makes them") {
     CHECK(lods[i].output.hash == hash_of({{kept[i].mesh.positions.data(), kept[i].mesh.positions.size()},
                                           {kept[i].mesh.triangles.data(), kept[i].mesh.triangles.size()}}));
   }
+}
+
+TEST_CASE("isolod_c: a plan is that of C++, and enough") {
+  const shapes::Shape shape = made("torus", 800);
+  const isolod_mesh mesh = mesh_of(shape);
+  const isolod_options options = options_for(400);
+  support::Block block;
+  MemoryPlan wanted;
+  REQUIRE(plan(view_of(shape), support::with_vertices(400), wanted, block.arena).is_ok());
+  Work work;
+  std::size_t bytes = 0;
+  REQUIRE(isolod_plan(&mesh, &options, &work.work, nullptr, 0, &bytes, nullptr) == ISOLOD_OK);
+  CHECK(bytes == wanted.bytes);
+  Work exact(bytes);
+  Room room(400, 800);
+  CHECK(isolod_remesh(&mesh, &options, &exact.work, &room.output, nullptr) == ISOLOD_OK);
+
+  isolod_lod lods[2] = {};
+  lods[0].vertex_count = 400, lods[1].vertex_count = 100;
+  std::size_t for_both = 0;
+  REQUIRE(isolod_plan(&mesh, &options, &work.work, lods, 2, &for_both, nullptr) == ISOLOD_OK);
+  CHECK(for_both > bytes);
+
+  Work small(1000);
+  isolod_report report = empty_report();
+  CHECK(isolod_plan(&mesh, &options, &small.work, nullptr, 0, &bytes, &report) == ISOLOD_OUT_OF_MEMORY);
+  CHECK(bytes == 0);
+  CHECK(report.value > 1000);
+  CHECK(isolod_plan(&mesh, &options, &work.work, nullptr, 0, nullptr, nullptr) == ISOLOD_INVALID_ARGUMENT);
+  CHECK(isolod_plan(&mesh, &options, &work.work, nullptr, 2, &bytes, nullptr) == ISOLOD_INVALID_ARGUMENT);
+  CHECK(isolod_plan(nullptr, &options, &work.work, nullptr, 0, &bytes, nullptr) == ISOLOD_INVALID_ARGUMENT);
+}
+
+TEST_CASE("isolod_c: threads and progress have contexts of their own, and an older struct has no threads") {
+  const shapes::Shape shape = made("torus", 800);
+  const isolod_mesh mesh = mesh_of(shape);
+  const isolod_options options = options_for(1500);
+  Room room(1500, 3000);
+  Work work;
+  REQUIRE(isolod_remesh(&mesh, &options, &work.work, &room.output, nullptr) == ISOLOD_OK);
+  const std::uint64_t alone = room.output.hash;
+  support::Threads threads{2};
+  int progress_calls = 0;
+  work.work.parallel_for = support::run_threads;
+  work.work.parallel_context = &threads;
+  work.work.progress_context = &progress_calls;
+  work.work.progress = [](void* calls, const char*, double) { return ++*static_cast<int*>(calls) > 0 ? 1 : 0; };
+  REQUIRE(isolod_remesh(&mesh, &options, &work.work, &room.output, nullptr) == ISOLOD_OK);
+  CHECK(room.output.hash == alone);
+  CHECK(threads.calls > 100);
+  CHECK(progress_calls > 100);
+  threads.calls = 0;
+  work.work.struct_size = offsetof(isolod_work, parallel_for);
+  REQUIRE(isolod_remesh(&mesh, &options, &work.work, &room.output, nullptr) == ISOLOD_OK);
+  CHECK(threads.calls == 0);
+}
+
+TEST_CASE("isolod_c: the arithmetic of this build is tested") {
+  CHECK(isolod_self_test(0) == std::string("none"));
+  CHECK(isolod_self_test(1) == std::string("none"));
 }
 
 TEST_CASE("isolod_c: too little room is a status that tells the number, and nothing is written") {

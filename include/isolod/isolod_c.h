@@ -165,7 +165,11 @@ typedef struct isolod_options {
 /// Called between pieces of work with the stage's name and the share done, 0 to 1, which never falls. 0 cancels.
 typedef int32_t (*isolod_progress)(void* context, const char* stage, double share);
 
-/// The block to work in, and who is told how far the work is.
+/// Calls piece(data, 0) to piece(data, count - 1), in any order and on any threads, and returns when all have returned.
+typedef void (*isolod_parallel_for)(void* context, uint32_t count, void (*piece)(void* data, uint32_t index),
+                                    void* data);
+
+/// The block to work in, who is told how far the work is, and who lends threads.
 typedef struct isolod_work {
   uint32_t struct_size;
   uint32_t reserved;  ///< 0
@@ -173,6 +177,8 @@ typedef struct isolod_work {
   size_t block_bytes;
   isolod_progress progress;  ///< or null
   void* progress_context;
+  isolod_parallel_for parallel_for;  ///< or null; the result is the same with it and without
+  void* parallel_context;
 } isolod_work;
 
 /// Room for a mesh, and the mesh. Set the first four and the rest to 0. This struct never changes.
@@ -261,6 +267,17 @@ ISOLOD_API size_t isolod_required_memory(size_t vertex_count, size_t triangle_co
 /// The same for these levels of detail at once.
 ISOLOD_API size_t isolod_required_memory_lods(size_t vertex_count, size_t triangle_count, const isolod_options* options,
                                               const isolod_lod* lods, size_t lod_count);
+
+/// How many bytes of block this mesh needs, for one result or, with `lod_count` above 0, for these levels of detail at
+/// once; as isolod::plan. Works in the block of `work`, which must hold about what the analysis of the mesh takes:
+/// where it does not, the status is ISOLOD_OUT_OF_MEMORY and `report`, which may be null, has a number that is enough
+/// as value. `bytes` is 0 where it fails.
+ISOLOD_API int32_t isolod_plan(const isolod_mesh* mesh, const isolod_options* options, const isolod_work* work,
+                               const isolod_lod* lods, size_t lod_count, size_t* bytes, isolod_report* report);
+
+/// "none", or what about this build or machine computes otherwise than every other, as isolod::ArithmeticFault spells
+/// it: in the calling thread's floating-point mode or, where `in_calls` is not 0, in that which every call sets.
+ISOLOD_API const char* isolod_self_test(int32_t in_calls);
 
 /// Remeshes to exactly `options->vertex_count` vertices. Returns an isolod_status; `report` says more, and may be null.
 ///

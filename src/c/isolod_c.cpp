@@ -2,6 +2,7 @@
 #include "isolod/isolod_c.h"
 
 #include "c/mirror.h"
+#include "isolod/self_test.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -16,7 +17,7 @@ constexpr std::size_t oldest_work = offsetof(isolod_work, progress);
 constexpr std::size_t oldest_report = offsetof(isolod_report, result_hash);
 static_assert(sizeof(isolod_mesh) == offsetof(isolod_mesh, triangle_materials) + sizeof(void*), "no padding");
 static_assert(sizeof(isolod_options) == offsetof(isolod_options, reserved_too) + 4, "no padding");
-static_assert(sizeof(isolod_work) == offsetof(isolod_work, progress_context) + sizeof(void*), "no padding");
+static_assert(sizeof(isolod_work) == offsetof(isolod_work, parallel_context) + sizeof(void*), "no padding");
 static_assert(sizeof(isolod_report) == offsetof(isolod_report, one_sided_cuts) + 4, "no padding");
 
 /// A status as C gives it: with codes of its own besides.
@@ -53,21 +54,22 @@ bool read_view(const isolod_mesh* given, MeshView& view) {
          (view.indices != nullptr || view.triangle_count == 0) && (view.tagged_edges != nullptr || !any_edges);
 }
 
-/// Who asks C's progress callback.
-struct Watch {
-  isolod_progress progress = nullptr;
-  void* context = nullptr;
-};
-
+/// C's callbacks have a context each, those of C++ share one: the struct that holds them all.
 bool ask(void* context, const char* stage, double share) {
-  const Watch& watch = *static_cast<Watch*>(context);
-  return watch.progress(watch.context, stage, share) != 0;
+  const isolod_work& work = *static_cast<isolod_work*>(context);
+  return work.progress(work.progress_context, stage, share) != 0;
 }
 
-Hooks hooks_of(Watch& watch) {
+void lend(void* context, std::uint32_t count, void (*piece)(void* data, std::uint32_t index), void* data) {
+  const isolod_work& work = *static_cast<isolod_work*>(context);
+  work.parallel_for(work.parallel_context, count, piece, data);
+}
+
+Hooks hooks_of(isolod_work& work) {
   Hooks hooks;
-  hooks.context = &watch;
-  if (watch.progress != nullptr) hooks.progress = ask;
+  hooks.context = &work;
+  if (work.progress != nullptr) hooks.progress = ask;
+  if (work.parallel_for != nullptr) hooks.parallel_for = lend;
   return hooks;
 }
 
@@ -293,6 +295,31 @@ size_t isolod_required_memory_lods(size_t vertex_count, size_t triangle_count, c
   return isolod::required_memory(vertex_count, triangle_count, read, levels.requests());
 }
 
+int32_t isolod_plan(const isolod_mesh* mesh, const isolod_options* options, const isolod_work* work,
+                    const isolod_lod* lods, size_t lod_count, size_t* bytes, isolod_report* report) {
+  if (bytes != nullptr) *bytes = 0;
+  isolod::Call call(mesh, options, work);
+  if (call.is_good && bytes == nullptr) call.outcome = isolod::Outcome(ISOLOD_INVALID_ARGUMENT);
+  call.is_good = call.is_good && bytes != nullptr;
+  if (call.is_good && lod_count > 0) call.is_good = isolod::are_admitted(lods, lod_count, call.outcome);
+  if (!call.is_good) return isolod::answer(call.outcome, {}, report);
+  isolod::Wishes levels;
+  for (std::size_t i = 0; i < lod_count; ++i) levels.add(lods[i].vertex_count, nullptr);
+  isolod::MemoryPlan plan;
+  isolod::Arena arena(call.work.block, call.work.block_bytes);
+  const isolod::Status status = lod_count > 0 ? isolod::plan(call.view, call.options, levels.requests(), plan, arena)
+                                              : isolod::plan(call.view, call.options, plan, arena);
+  *bytes = plan.bytes;
+  return isolod::answer(isolod::Outcome(status), {}, report);
+}
+
+const char* isolod_self_test(int32_t in_calls) {
+  const isolod::Status status =
+      isolod::self_test(in_calls != 0 ? isolod::TestedMode::as_in_calls : isolod::TestedMode::as_found);
+  return isolod::name(status.is_ok() ? isolod::ArithmeticFault::none
+                                     : static_cast<isolod::ArithmeticFault>(status.value));
+}
+
 int32_t isolod_remesh(const isolod_mesh* mesh, const isolod_options* options, const isolod_work* work,
                       isolod_output* output, isolod_report* report) {
   isolod::Report done;
@@ -304,10 +331,9 @@ int32_t isolod_remesh(const isolod_mesh* mesh, const isolod_options* options, co
   }
   isolod::Wishes level;
   level.add(call.options.vertex_count, output);
-  isolod::Watch watch{call.work.progress, call.work.progress_context};
   isolod::Arena arena(call.work.block, call.work.block_bytes);
   const isolod::Status status =
-      isolod::remesh(call.view, call.options, level.request[0].sink, &done, arena, isolod::hooks_of(watch));
+      isolod::remesh(call.view, call.options, level.request[0].sink, &done, arena, isolod::hooks_of(call.work));
   return isolod::answer(level.finish(status), done, report);
 }
 
@@ -325,9 +351,8 @@ int32_t isolod_build_lods(const isolod_mesh* mesh, const isolod_options* options
     }
     levels.add(lods[i].vertex_count, &lods[i].output);
   }
-  isolod::Watch watch{call.work.progress, call.work.progress_context};
   isolod::Arena arena(call.work.block, call.work.block_bytes);
   const isolod::Status status =
-      isolod::build_lods(call.view, call.options, levels.requests(), &done, arena, isolod::hooks_of(watch));
+      isolod::build_lods(call.view, call.options, levels.requests(), &done, arena, isolod::hooks_of(call.work));
   return isolod::answer(levels.finish(status), done, report);
 }

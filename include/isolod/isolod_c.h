@@ -50,6 +50,8 @@
 #define isolod_report_init ISOLOD_C_NAME(ISOLOD_C_PREFIX, isolod_report_init)
 #define isolod_required_memory ISOLOD_C_NAME(ISOLOD_C_PREFIX, isolod_required_memory)
 #define isolod_required_memory_lods ISOLOD_C_NAME(ISOLOD_C_PREFIX, isolod_required_memory_lods)
+#define isolod_plan ISOLOD_C_NAME(ISOLOD_C_PREFIX, isolod_plan)
+#define isolod_self_test ISOLOD_C_NAME(ISOLOD_C_PREFIX, isolod_self_test)
 #define isolod_remesh ISOLOD_C_NAME(ISOLOD_C_PREFIX, isolod_remesh)
 #define isolod_build_lods ISOLOD_C_NAME(ISOLOD_C_PREFIX, isolod_build_lods)
 #endif

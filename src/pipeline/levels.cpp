@@ -99,6 +99,7 @@ RelaxOptions Levels::relax_options() const {
   options.weight = options_.weight;
   options.line_rate = line_rate(level_);
   options.guards_faces = plan_.is_thinned();
+  options.chases_tips = plan_.splits > 0;
   options.parallel = options_.parallel;
   return options;
 }

@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::uint32_t most_way_halvings = 3;
 constexpr std::uint32_t flip_rounds = 2;
-constexpr double least_cosine = 0.1;      // between a face and its star, for it to count as not turned over
-constexpr double least_upright = 0.5;     // length of the sum of a star's area vectors over the sum of their lengths
-constexpr double large_cell = 1.8;        // times the mean mass
-constexpr double far_reach = 1.0;         // wished edge lengths; a regular cell reaches 0.58
-constexpr double pull = 0.3;              // of the way to what is far
-constexpr double longest_step = 0.25;     // wished edge lengths
-constexpr double most_of_interval = 0.3;  // that a sample slides at once
-constexpr double evening = 0.7;           // part of a slide that evens out the intervals of the line
+constexpr double least_cosine = 0.1;   // between a face and its star, for it to count as not turned over
+constexpr double least_upright = 0.5;  // length of the sum of a star's area vectors over the sum of their lengths
+constexpr double large_cell = 1.8;     // times the mean mass
+constexpr double far_reach = 0.8, far_to_chase = 1.0;  // wished edge lengths; a regular cell reaches 0.58
+constexpr double pull = 0.3;                           // of the way to what is far
+constexpr double longest_step = 0.25;                  // wished edge lengths
+constexpr double most_of_interval = 0.3;               // that a sample slides at once
+constexpr double evening = 0.7;                        // part of a slide that evens out the intervals of the line
 
 bool gets_unfair(double before, double after) { return after < fair_score && after < before; }
 
@@ -205,7 +205,7 @@ Vec3 Relaxation::step_of(SampleId s, Vec3 normal) const {
   const Vec3 way = 1 / cell_[s].weight * cell_[s].moment;
   if (is_bent_[s]) return flatten(way, area_vector(*surface_, samples_.place[s].face));
   if (samples_.held[s]) return (1 - evening) * options_.step * way + evening * way_to_even(vertex(s));
-  if (reach_of(s) > far_reach) return pull_of(s);
+  if (reach_of(s) > (options_.chases_tips ? far_to_chase : far_reach)) return pull_of(s);
   return options_.step * flatten(way, normal);
 }
 
@@ -287,7 +287,7 @@ bool Relaxation::step() {
     case Phase::look:
       if (!over<SampleId>(count, [&](SampleId s) { look(s); })) return false;
       flips_ = 0;
-      if (covers_) tiles_.clear_reach();
+      if (covers_ || !options_.chases_tips) tiles_.clear_reach();
       phase_ = Phase::cells;
       return false;
     case Phase::cells:

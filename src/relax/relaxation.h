@@ -32,6 +32,9 @@ struct RelaxOptions {
   double line_rate = 0;  ///< R_f of this level: 1 / (R_f sqrt(d_s)) is the wished edge length
   /// For meshes too coarse for their shape: no move and no flip makes a face worse that is not fair (`face_score`).
   bool guards_faces = false;
+  /// A sample whose cell reaches too far goes there in every iteration, not only in those that give the surface to the
+  /// samples: not on meshes that stay too coarse for their shape, which fold by it.
+  bool chases_tips = false;
   Parallel parallel;
 };
 

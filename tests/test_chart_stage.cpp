@@ -35,13 +35,6 @@ struct Charted {
   std::vector<std::uint32_t> at_once;
 };
 
-Hooks with(Threads& threads) {
-  Hooks hooks;
-  hooks.context = &threads;
-  hooks.parallel_for = support::run_threads;
-  return hooks;
-}
-
 }  // namespace
 
 TEST_CASE("chart_stage: side by side the samples come to the same places, and the faces in the same order") {
@@ -52,7 +45,7 @@ TEST_CASE("chart_stage: side by side the samples come to the same places, and th
   REQUIRE(count > 10);
   CHECK(alone.at_once == std::vector<std::uint32_t>(count, 1));
   Threads threads{3};
-  const Charted shared(shape, options, with(threads));
+  const Charted shared(shape, options, support::hooks_of(threads));
   CHECK(shared.at_once.size() == (count + 7) / 8);
   CHECK(shared.at_once[0] == 8);
   const auto& places = alone.state().places;
@@ -73,7 +66,7 @@ TEST_CASE("chart_stage: where there is little room fewer charts are side by side
     REQUIRE(plan(support::view_of(shape), options, memory, block.arena).is_ok());
   }
   Threads threads{3};
-  const support::Run all = support::run(support::view_of(shape), options, memory.bytes, with(threads));
+  const support::Run all = support::run(support::view_of(shape), options, memory.bytes, support::hooks_of(threads));
   REQUIRE(all.status.is_ok());
   CHECK(all.report.result_hash == support::run(support::view_of(shape), options).report.result_hash);
 }

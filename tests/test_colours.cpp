@@ -31,7 +31,7 @@ struct Coloured {
     while (!colours.sort(sweep)) {
     }
     std::vector<int> visits(calls.size());
-    const Parallel parallel{&threads, support::run_threads, &environment};
+    const Parallel parallel = support::parallel_of(threads, environment);
     CHECK(colours.over(sweep, parallel, [&](SampleId s) { ++visits[s.value], calls[s.value] = threads.calls; }));
     std::size_t good = 0;
     for (VertexId v : Ids<VertexId>(calls.size())) {
@@ -89,7 +89,7 @@ TEST_CASE("colours: without threads the order is the same") {
   Threads in_turn{1};
   FloatEnvironment environment;
   const ArithmeticScope scope(environment);
-  const Parallel parallel{&in_turn, support::run_threads, &environment};
+  const Parallel parallel = support::parallel_of(in_turn, environment);
   coloured.colours.over(coloured.sweep, parallel, [&](SampleId s) { order[1].push_back(s.value); });
   CHECK(order[0] == order[1]);
   CHECK(in_turn.calls >= 3);

@@ -11,16 +11,13 @@
 #include "support/threads.h"
 
 using namespace isolod;
-using support::run_threads;
+using support::parallel_of;
 using support::Threads;
 
 namespace {
 
-Parallel parallel_of(Threads& threads, FloatEnvironment& environment) { return {&threads, run_threads, &environment}; }
-
 std::uint64_t hash_with(Threads* threads, const shapes::Shape& shape, const Options& options) {
-  Hooks hooks;
-  if (threads != nullptr) hooks.context = threads, hooks.parallel_for = run_threads;
+  const Hooks hooks = threads != nullptr ? support::hooks_of(*threads) : Hooks();
   const support::Run run = support::run(support::view_of(shape), options, 0, hooks);
   REQUIRE(run.status.is_ok());
   return run.report.result_hash;

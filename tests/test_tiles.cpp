@@ -191,7 +191,7 @@ TEST_CASE("tiles: cells gathered on threads are the same to the bit") {
   support::Threads threads{3};
   FloatEnvironment environment;
   const ArithmeticScope scope(environment);
-  shared.parallel = {&threads, support::run_threads, &environment};
+  shared.parallel = support::parallel_of(threads, environment);
   for (Tiled* tiled : {&alone, &shared}) {
     for (std::size_t s = 0; s < tiled->bent.size(); s += 3) tiled->bent[s] = 1;
     tiled->sweep();

@@ -205,7 +205,8 @@ Vec3 Relaxation::step_of(SampleId s, Vec3 normal) const {
   const Vec3 way = 1 / cell_[s].weight * cell_[s].moment;
   if (is_bent_[s]) return flatten(way, area_vector(*surface_, samples_.place[s].face));
   if (samples_.held[s]) return (1 - evening) * options_.step * way + evening * way_to_even(vertex(s));
-  if (reach_of(s) > (options_.chases_tips ? far_to_chase : far_reach)) return pull_of(s);
+  const bool looks_far = covers_ || options_.chases_tips;
+  if (looks_far && reach_of(s) > (options_.chases_tips ? far_to_chase : far_reach)) return pull_of(s);
   return options_.step * flatten(way, normal);
 }
 
@@ -287,7 +288,7 @@ bool Relaxation::step() {
     case Phase::look:
       if (!over<SampleId>(count, [&](SampleId s) { look(s); })) return false;
       flips_ = 0;
-      if (covers_ || !options_.chases_tips) tiles_.clear_reach();
+      if (covers_) tiles_.clear_reach();
       phase_ = Phase::cells;
       return false;
     case Phase::cells:

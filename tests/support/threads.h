@@ -6,6 +6,9 @@
 #include <thread>
 #include <vector>
 
+#include "base/parallel.h"
+#include "isolod/remesh.h"
+
 namespace support {
 
 /// The context of `run_threads`; 0 workers: all pieces on the caller's thread, the last first.
@@ -30,6 +33,17 @@ inline void run_threads(void* context, std::uint32_t count, void (*piece)(void* 
     });
   }
   for (std::thread& t : pool) t.join();
+}
+
+/// What a run and a part of one are given to work on these threads. They stay where they are.
+inline isolod::Hooks hooks_of(Threads& threads) {
+  isolod::Hooks hooks;
+  hooks.context = &threads;
+  hooks.parallel_for = run_threads;
+  return hooks;
+}
+inline isolod::Parallel parallel_of(Threads& threads, isolod::FloatEnvironment& environment) {
+  return {&threads, run_threads, &environment};
 }
 
 }  // namespace support

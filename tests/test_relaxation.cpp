@@ -36,6 +36,7 @@ struct Relaxed : support::Stitched {
     }
     RelaxOptions options;
     options.weight = s.options.weight;
+    options.line_rate = s.first_rates.line;
     REQUIRE(relaxation.begin(s.surface, features(), mesh(), s.samples, options, block.arena).is_ok());
   }
 
@@ -259,6 +260,7 @@ TEST_CASE("relaxation: with guarded faces none becomes a needle or turns over, h
       Relaxation relaxation;
       RelaxOptions options;
       options.guards_faces = true;
+      options.line_rate = run.s.first_rates.line;
       REQUIRE(
           relaxation.begin(run.s.surface, run.features(), run.mesh(), run.s.samples, options, run.block.arena).is_ok());
       std::uint32_t moved = 0;

@@ -1,10 +1,13 @@
 // Moves and flips one at a time: never worse, within bounds, on the line.
 #include "relax/star_moves.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "support/plane_shapes.h"
+#include "support/soup.h"
 #include "support/stopped.h"
 
 using namespace isolod;
@@ -94,4 +97,35 @@ TEST_CASE("star_moves: the centre is taken unless that spoils the star; held sam
     CHECK(run.moves.star_score(v) >= std::min(before, 0.6));
     if (run.s.samples.held[v]) CHECK(distance(place, run.at(v)) == 0);
   }
+}
+
+TEST_CASE(
+    "star_moves: a face that the corners take for right is found to be turned by the surface under its centroid") {
+  constexpr std::uint32_t count = 60;
+  Moving run("torus", count);
+  const auto outwards = [](Vec3 p) {
+    const double r = std::sqrt(p.x * p.x + p.y * p.y);
+    return p - Vec3{p.x / r, p.y / r, 0};
+  };
+  support::Random random(7);
+  std::uint32_t found = 0, missed = 0, wrong = 0;
+  for (int i = 0; i < 60000; ++i) {
+    const VertexId a{random.below(count)}, b{random.below(count)}, c{random.below(count)};
+    const Vec3 p = run.at(a), q = run.at(b), r = run.at(c), centroid = 1.0 / 3 * (p + q + r);
+    const double most = std::max({distance(p, q), distance(q, r), distance(r, p)});
+    if (a == b || b == c || c == a || most > 1) continue;  // the tube is 0.8 thick
+    run.moves.asks_at_centroids = false;
+    const double by_corners = run.moves.score(a, b, c);
+    run.moves.asks_at_centroids = true;
+    const double score = run.moves.score(a, b, c);
+    CHECK(score <= by_corners);
+    if (by_corners <= 0) continue;
+    const double cosine = dot(unit(cross(q - p, r - p)), unit(outwards(centroid)));
+    found += score < 0 && cosine < 0;
+    missed += score > 0 && cosine < -0.3;
+    wrong += score < 0 && cosine > 0.3;
+  }
+  CHECK(found > 20);
+  CHECK(missed == 0);
+  CHECK(wrong <= found / 20);
 }

@@ -18,7 +18,7 @@ namespace {
 struct Tiled : Meshed {
   Tiled(Piece& on, const Soup& coarse) : Meshed(on, coarse), faces(on.surface.mesh.face_count()) {
     for (std::uint32_t s = 0; s < samples.count(); ++s)
-      site.push_back({at(s), 1, 1, area_vector(piece.surface, face_of(samples, SampleId{s}))});
+      site.push_back({at(s), 1, 1, narrow(unit(area_vector(piece.surface, face_of(samples, SampleId{s}))))});
     bent.assign(samples.count(), 0);
     REQUIRE(tiles.begin(piece.surface, samples, piece.block.arena).is_ok());
   }

@@ -7,4 +7,4 @@
 
 /// Greater by one whenever any result has other bits than before; two versions of the library that share it give the
 /// same meshes. The change list in README.md says for each number why.
-#define ISOLOD_OUTPUT_VERSION 3
+#define ISOLOD_OUTPUT_VERSION 4

@@ -28,6 +28,13 @@ inline Vec3 unit(Vec3 a) {
 }
 inline Vec3 midpoint(Vec3 a, Vec3 b) { return 0.5 * (a + b); }
 
+/// A short one, for what is kept and need not be exact.
+struct Vec3f {
+  float x, y, z;
+};
+inline Vec3 widen(Vec3f a) { return {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)}; }
+inline Vec3f narrow(Vec3 a) { return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)}; }
+
 /// Cosine and sine of an angle, times one positive number.
 struct Angle {
   double cosine, sine;

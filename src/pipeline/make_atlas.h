@@ -13,7 +13,7 @@ struct AtlasOptions {
   double line_rate = 0;     ///< R_f
   double surface_rate = 0;  ///< R_s
   double samples_per_chart = 250;
-  std::uint32_t most_faces_per_chart = 20000;
+  std::uint32_t most_faces_per_chart = 4000;
   FlattenOptions flatten;
 };
 

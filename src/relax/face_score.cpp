@@ -30,12 +30,11 @@ double face_score(const Stand& a, const Stand& b, const Stand& c) {
   const Vec3 ab = b.position - a.position, bc = c.position - b.position, ca = a.position - c.position;
   const Vec3 area = cross(ab, bc), normal = a.normal + b.normal + c.normal;
   const double turn = length(normal) > 0 ? dot(unit(area), unit(normal)) : 1;  // corners alone tell nothing
-  if (turn < 0) return turn;
   const double x = dot(ab, ab), y = dot(bc, bc), z = dot(ca, ca);
   const double others = smaller(x, smaller(y, z)) == x ? y * z : smaller(y, z) == y ? x * z : x * y;
   constexpr double two_over_root_three = 1.1547005383792515;
   const double sine = others > 0 ? two_over_root_three * square_root(dot(area, area) / others) : 0;
-  return sine * smaller(1, 1.6 * turn);
+  return lessened_by_turn(sine, turn);
 }
 
 double face_score(const Surface& surface, const Samples& samples, const VertexId (&corners)[3]) {

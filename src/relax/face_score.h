@@ -19,9 +19,14 @@ struct Stand {
 };
 Stand stand_of(const Surface& surface, const Samples& samples, SampleId s);
 
-/// The sine of the least angle over that of 60 degrees: 1 for an equilateral face along the surface at its corners,
-/// less for a needle, 0 without area; less too for one that lies more than 51 degrees across the surface; below 0, the
-/// cosine, for a face that is turned against it.
+/// The score of a face whose normal and the surface's have that cosine: less if it lies more than 51 degrees across;
+/// below 0, the cosine itself, if it is turned against the surface.
+inline double lessened_by_turn(double score, double cosine) {
+  return cosine < 0 ? cosine : score * smaller(1, 1.6 * cosine);
+}
+
+/// The sine of the least angle over that of 60 degrees, lessened by the turn from the surface at its corners: 1 for an
+/// equilateral face, less for a needle, 0 without area.
 double face_score(const Stand& a, const Stand& b, const Stand& c);
 double face_score(const Surface& surface, const Samples& samples, const VertexId (&corners)[3]);
 

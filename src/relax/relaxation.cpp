@@ -23,6 +23,8 @@ constexpr double pull = 0.3;                           // of the way to what is 
 constexpr double longest_step = 0.25;                  // wished edge lengths
 constexpr double most_of_interval = 0.3;               // that a sample slides at once
 constexpr double evening = 0.7;                        // part of a slide that evens out the intervals of the line
+constexpr double momentum = 0.65;                      // of a sample's last way on the surface
+constexpr double step_on_line = 1.8;                   // times the way to the centroid
 
 bool gets_unfair(double before, double after) { return after < fair_score && after < before; }
 
@@ -30,6 +32,7 @@ bool gets_unfair(double before, double after) { return after < fair_score && aft
 
 Status Relaxation::begin(const Surface& surface, const Backbones* features, Triangulation& mesh, const Samples& samples,
                          const RelaxOptions& options, Arena& arena) {
+  ISOLOD_ASSERT(options.line_rate > 0);
   surface_ = &surface;
   features_ = features;
   mesh_ = &mesh;
@@ -46,13 +49,15 @@ Status Relaxation::begin(const Surface& surface, const Backbones* features, Tria
   ISOLOD_TRY(arena.scratch(samples.count(), has_moved_));
   ISOLOD_TRY(arena.scratch(mesh.mesh.halfedge_count(), wants_));
   ISOLOD_TRY(arena.scratch(samples.count(), site_));
+  ISOLOD_TRY(arena.scratch(samples.count(), last_way_));
+  for (Vec3f& way : last_way_) way = {0, 0, 0};
   return arena.scratch(samples.count(), cell_);
 }
 
 std::size_t Relaxation::bytes(std::size_t surface_face_count, std::size_t sample_count, std::size_t face_count) {
   const std::size_t own = Colours::bytes(sample_count) + 2 * array_bytes<std::uint8_t>(sample_count) +
                           array_bytes<std::uint8_t>(3 * face_count) + array_bytes<Site>(sample_count) +
-                          array_bytes<StarCell>(sample_count);
+                          array_bytes<Vec3f>(sample_count) + array_bytes<StarCell>(sample_count);
   return MassLoop::bytes(sample_count) + Tiles::bytes(surface_face_count, sample_count) +
          most_of(own, Tiles::begin_bytes(surface_face_count));
 }
@@ -60,7 +65,7 @@ std::size_t Relaxation::bytes(std::size_t surface_face_count, std::size_t sample
 void Relaxation::look(SampleId s) {
   const double d = density_at(*surface_, samples_, s);
   const double base = options_.weight == LloydWeight::equal ? d * d : d;
-  const Vec3 normal = area_vector(*surface_, face_of(samples_, s));
+  const Vec3f normal = narrow(unit(area_vector(*surface_, face_of(samples_, s))));
   site_[s] = {position_of(*surface_, samples_, s), d, base * exponential(samples_.correction[s]), normal};
 }
 
@@ -188,10 +193,10 @@ bool Relaxation::slide_by(SampleId s, Vec3 normal, Vec3 way) {
   return true;
 }
 
+double Relaxation::wished_edge(SampleId s) const { return 1 / (options_.line_rate * square_root(site_[s].density)); }
+
 /// How far the cell of a sample reaches, in wished edge lengths.
-double Relaxation::reach_of(SampleId s) const {
-  return square_root(tiles_.reach(s).squared * site_[s].density) * options_.line_rate;
-}
+double Relaxation::reach_of(SampleId s) const { return square_root(tiles_.reach(s).squared) / wished_edge(s); }
 
 /// Part of the way to the farthest face of the cell.
 Vec3 Relaxation::pull_of(SampleId s) const {
@@ -200,19 +205,20 @@ Vec3 Relaxation::pull_of(SampleId s) const {
 }
 
 /// The way that a sample is to go. On a line its part along that counts; else the part along the star, or along the
-/// surface where the star is folded up: that cell is rough, and the step plain.
+/// surface where the star is folded up: that cell is rough. Elsewhere a sample keeps some of its last way, as a heavy
+/// ball does (Polyak 1964).
 Vec3 Relaxation::step_of(SampleId s, Vec3 normal) const {
   const Vec3 way = 1 / cell_[s].weight * cell_[s].moment;
   if (is_bent_[s]) return flatten(way, area_vector(*surface_, samples_.place[s].face));
-  if (samples_.held[s]) return (1 - evening) * options_.step * way + evening * way_to_even(vertex(s));
+  if (samples_.held[s]) return (1 - evening) * step_on_line * way + evening * way_to_even(vertex(s));
   const bool looks_far = covers_ || options_.chases_tips;
   if (looks_far && reach_of(s) > (options_.chases_tips ? far_to_chase : far_reach)) return pull_of(s);
-  return options_.step * flatten(way, normal);
+  return flatten(way + momentum * wished_edge(s) * widen(last_way_[s]), normal);
 }
 
 /// No longer than a quarter of a wished edge.
 Vec3 Relaxation::shortened(SampleId s, Vec3 way) const {
-  const double most = longest_step / (options_.line_rate * square_root(site_[s].density)), size = length(way);
+  const double most = longest_step * wished_edge(s), size = length(way);
   return size > most ? most / size * way : way;
 }
 
@@ -220,11 +226,12 @@ void Relaxation::move(SampleId s) {
   has_moved_[s] = 0;
   const bool slides = samples_.held[s] == hold_line;
   if (samples_.held[s] == hold_place || !(cell_[s].weight > 0)) return;
-  const Vec3 normal = normal_at(vertex(s));
+  const Vec3 normal = normal_at(vertex(s)), before = site_[s].position;
   Vec3 way = shortened(s, step_of(s, normal));
   for (std::uint32_t halving = 0; halving <= most_way_halvings && !has_moved_[s]; ++halving, way = 0.5 * way) {
     has_moved_[s] = slides ? slide_by(s, normal, way) : move_by(s, normal, way);
   }
+  if (!slides) last_way_[s] = narrow(1 / wished_edge(s) * (site_[s].position - before));
 }
 
 /// Delaunay by angles, unless a face would be turned over by it.

@@ -28,8 +28,7 @@ inline namespace v1 {
 
 struct RelaxOptions {
   LloydWeight weight = LloydWeight::equal;
-  double step = 1.8;     ///< times the way to the centroid
-  double line_rate = 0;  ///< R_f of this level: 1 / (R_f sqrt(d_s)) is the wished edge length
+  double line_rate = 0;  ///< R_f of this level, over 0: 1 / (R_f sqrt(d_s)) is the wished edge length
   /// For meshes too coarse for their shape: no move and no flip makes a face worse that is not fair (`face_score`).
   bool guards_faces = false;
   /// A sample whose cell reaches too far goes there in every iteration, not only in those that give the surface to the
@@ -78,6 +77,7 @@ class Relaxation {
   void find_cell(SampleId s);
   void end_tiles();
   Vec3 normal_at(VertexId v) const;
+  double wished_edge(SampleId s) const;
   double reach_of(SampleId s) const;
   Vec3 pull_of(SampleId s) const;
   Vec3 step_of(SampleId s, Vec3 normal) const;
@@ -114,6 +114,7 @@ class Relaxation {
   Span<std::uint8_t> has_moved_;  // per sample
   Span<std::uint8_t> wants_;      // per halfedge: to be flipped, when it was last looked at
   Span<Site> site_;
+  Span<Vec3f> last_way_;  // per sample, in wished edge lengths
   Span<StarCell> cell_;
 };
 

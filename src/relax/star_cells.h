@@ -19,7 +19,7 @@ struct Site {
   Vec3 position;
   double density;  ///< d_s there; on a line that of one side
   double weight;   ///< of the surface there, when centroids are taken
-  Vec3 normal;     ///< of the original face there, at the beginning of the iteration
+  Vec3f normal;    ///< of length 1, of the original face there, at the beginning of the iteration
 };
 
 /// Integrals over a sample's cell.

@@ -52,6 +52,29 @@ StarMoves::EdgeRange StarMoves::edge_range(VertexId v) const {
   return range;
 }
 
+/// The cosine between a face and the surface under its centroid: there it is the nearest of the places that going
+/// downhill from its free corners finds.
+double StarMoves::cosine_at_centroid(const VertexId (&corners)[3]) const {
+  const Vec3 a = at(corners[0]), b = at(corners[1]), c = at(corners[2]), centroid = 1.0 / 3 * (a + b + c);
+  double least = 1e300;
+  Vec3 normal{0, 0, 0};
+  for (VertexId v : corners) {
+    if (samples_->held[v]) continue;
+    const SurfacePlace foot = find_nearest(*surface_, samples_->place[v].face, centroid);
+    const double off = distance(position_of(*surface_, foot), centroid);
+    if (off < least) least = off, normal = area_vector(*surface_, foot.face);
+  }
+  return least < 1e300 ? dot(unit(cross(b - a, c - a)), unit(normal)) : 1;
+}
+
+double StarMoves::score(VertexId a, VertexId b, VertexId c) const {
+  constexpr double agreeing = 6;  // squared length of the sum of three normals, any two 60 degrees apart
+  const double by_corners = face_score(stand_[a], stand_[b], stand_[c]);
+  if (!asks_at_centroids || by_corners < 0) return by_corners;
+  const Vec3 normals = stand_[a].normal + stand_[b].normal + stand_[c].normal;
+  return dot(normals, normals) > agreeing ? by_corners : lessened_by_turn(by_corners, cosine_at_centroid({a, b, c}));
+}
+
 double StarMoves::score(FaceId f) const {
   const Span<VertexId>& origin = mesh_->mesh.origin;
   return score(origin[halfedge(f, 0)], origin[halfedge(f, 1)], origin[halfedge(f, 2)]);

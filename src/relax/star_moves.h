@@ -22,7 +22,9 @@ class StarMoves {
   void look(SampleId s) { stand_[s] = stand_of(*surface_, *samples_, s); }
 
   Vec3 at(VertexId v) const { return stand_[v].position; }
-  double score(VertexId a, VertexId b, VertexId c) const { return face_score(stand_[a], stand_[b], stand_[c]); }
+  /// `face_score`; where the corners do not agree on the way that the surface faces, as around a tip or the rim of a
+  /// thin sheet, the surface under the centroid is asked too, if it is `asks_at_centroids`.
+  double score(VertexId a, VertexId b, VertexId c) const;
   double score(FaceId f) const;
   double star_score(VertexId v) const;
   double edge(HalfedgeId h) const { return distance(at(mesh_->mesh.origin[h]), at(mesh_->mesh.target(h))); }
@@ -36,6 +38,7 @@ class StarMoves {
   /// To the centre of its star, unless that spoils it below `wanted_score`.
   void centre(VertexId v, double wanted_score);
 
+  bool asks_at_centroids = true;
   /// Held samples slide only where a face of theirs scores less.
   double slides_below = 1;
   /// While `bounded`, only faces with a corner in `inner` flip. All zero at first.
@@ -44,6 +47,7 @@ class StarMoves {
   bool has_inner_corner(FaceId f) const;
 
  private:
+  double cosine_at_centroid(const VertexId (&corners)[3]) const;
   double mean_edge(VertexId v) const;
   struct EdgeRange {
     double least = 1e300, most = 0;

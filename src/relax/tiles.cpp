@@ -56,7 +56,7 @@ namespace {
 /// The square of the distance from a tile to a site, that to the other side of a sheet counted double.
 double far(Vec3 middle, Vec3 normal, const Site& site) {
   const Vec3 way = middle - site.position;
-  return dot(way, way) * (dot(normal, site.normal) < 0 ? 4 : 1);
+  return dot(way, way) * (dot(normal, widen(site.normal)) < 0 ? 4 : 1);
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ Status WorstFaces::begin(const Surface& surface, const Backbones* features, cons
   visits_left_ = 2000 + 2 * count;
   tries_left_ = 100 + count / 100;
   ISOLOD_TRY(moves_.begin(surface, features, mesh, samples, arena));
+  moves_.asks_at_centroids = options.asks_at_centroids;
   moves_.slides_below = options.keeps_lines ? thirty_degrees : 1;
   const Backbones* given_up = options.keeps_lines ? nullptr : features;
   ISOLOD_TRY(resettle_.begin(surface, given_up, options.wanted_score, mesh, samples, moves_, arena));

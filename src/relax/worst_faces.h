@@ -18,9 +18,12 @@ struct WorstFacesOptions {
   bool resettles = true;
   /// Lines are even already: samples on them slide only beside angles under 30 degrees, and none leaves its line.
   bool keeps_lines = false;
+  /// A face is also judged by the surface under its centroid (`StarMoves::score`).
+  bool asks_at_centroids = true;
 
-  /// For a few samples that stand for a whole shape: better angles would cost too much of it.
-  static WorstFacesOptions for_few() { return {0.25, false, false}; }
+  /// For a few samples that stand for a whole shape: better angles would cost too much of it, and centroids are far
+  /// from the surface.
+  static WorstFacesOptions for_few() { return {0.25, false, false, false}; }
 };
 
 /// A stage: begin, step until done, finish.

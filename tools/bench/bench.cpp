@@ -36,7 +36,7 @@ const CommandRule& bench_rule() {
        {"--repeat", "K", "how often; the median counts; 5"},
        {"--against", "'COMMAND {in} {out} {n}'", "another program, run in turn with isolod"},
        {"--isolod", "PATH", "the program to run in turn; beside this one when not given"},
-       {"--pieces", nullptr, "instead: by stage, how many pieces of work, and the longest"},
+       {"--pieces", nullptr, "instead: by stage, how many pieces of work, and how long"},
        {"--no-header", nullptr, "leave the CSV's first line out, to add to a file"}}};
   return rule;
 }
@@ -128,10 +128,10 @@ int bench_pieces(const Job& job, bool header) {
   std::vector<bench::StagePieces> stages;
   const isolod::Status status = bench::time_pieces(mesh.view(), job.settings.options, job.repeats, stages);
   if (!status.is_ok()) tool::fail_status(job.name, status);
-  if (header) std::puts("model,vertices,stage,pieces,longest_milliseconds");
+  if (header) std::puts("model,vertices,stage,pieces,milliseconds,longest_milliseconds");
   for (const bench::StagePieces& s : stages) {
-    std::printf("%s,%u,%s,%zu,%.3f\n", job.name.c_str(), job.settings.options.vertex_count, s.stage.c_str(), s.count,
-                1e3 * s.longest_seconds);
+    std::printf("%s,%u,%s,%zu,%.3f,%.3f\n", job.name.c_str(), job.settings.options.vertex_count, s.stage.c_str(),
+                s.count, 1e3 * s.seconds, 1e3 * s.longest_seconds);
   }
   return tool::exit_ok;
 }

@@ -53,8 +53,9 @@ isolod::Status time_pieces(const isolod::MeshView& view, const isolod::Options& 
   for (const Piece& piece : least) {
     auto found =
         std::find_if(stages.begin(), stages.end(), [&](const StagePieces& s) { return s.stage == piece.stage; });
-    if (found == stages.end()) found = stages.insert(found, {piece.stage, 0, 0});
+    if (found == stages.end()) found = stages.insert(found, {piece.stage, 0, 0, 0});
     ++found->count;
+    found->seconds += piece.seconds;
     found->longest_seconds = std::max(found->longest_seconds, piece.seconds);
   }
   return {};

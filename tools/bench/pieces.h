@@ -12,6 +12,7 @@ namespace bench {
 struct StagePieces {
   std::string stage;
   std::size_t count = 0;
+  double seconds = 0;  ///< of all
   double longest_seconds = 0;
 };
 

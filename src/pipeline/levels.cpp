@@ -145,11 +145,17 @@ Status Levels::begin_thin(const Surface& surface, bool keep_lines, Triangulation
 }
 
 /// Faces that are turned over get right again by moves and flips: relaxation keeps each face on its side.
-Status Levels::right_faces(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) const {
+Status Levels::begin_right(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
+  phase_ = Phase::right;
   WorstFacesOptions options;
   options.wanted_score = 0;
   options.resettles = false;
-  return improve_worst_faces(surface, features(), options, mesh, samples, arena);
+  return worst_faces_.begin(surface, features(), options, mesh, samples, arena);
+}
+
+Status Levels::begin_relax(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
+  phase_ = Phase::relax;
+  return relaxation_.begin(surface, features(), mesh, samples, relax_options(), arena);
 }
 
 Status Levels::begin_split(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) {
@@ -243,23 +249,29 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
       arena.rewind_scratch(scratch_);
       return begin_thin(surface, false, mesh, samples, arena);
     case Phase::insert:
-      phase_ = Phase::begin_relax;
+      phase_ = Phase::begin_right;
       if (samples.count() > plan_.count[level_] && is_finest()) {
         return fail(Status::budget_too_small, Element::count, samples.count());
       }
       if (samples.count() >= plan_.count[level_]) return {};
       return insert_where_sparse(surface, plan_.count[level_] - static_cast<std::uint32_t>(samples.count()), mesh,
                                  samples, arena);
-    case Phase::begin_relax:
-      phase_ = Phase::relax;
+    case Phase::begin_right:
       iteration_ = 0;
       more_iterations_ = is_finest() ? iterations_for_lines(samples) : 0;
-      ISOLOD_TRY(right_faces(surface, mesh, samples, arena));
-      return relaxation_.begin(surface, features(), mesh, samples, relax_options(), arena);
+      return begin_right(surface, mesh, samples, arena);
+    case Phase::right:
+      worst_faces_.step();
+      if (!worst_faces_.done()) return {};
+      ISOLOD_TRY(worst_faces_.finish(arena));
+      arena.rewind_scratch(scratch_);
+      phase_ = Phase::begin_relax;
+      return {};
+    case Phase::begin_relax:
+      return begin_relax(surface, mesh, samples, arena);
     case Phase::unfold:
-      phase_ = Phase::relax;
-      ISOLOD_TRY(unfold(surface, mesh, samples, arena));
-      return relaxation_.begin(surface, features(), mesh, samples, relax_options(), arena);
+      phase_ = Phase::begin_relax;
+      return unfold(surface, mesh, samples, arena);
     case Phase::relax:
       relax(surface, mesh.mesh, samples, arena);
       return {};

@@ -67,6 +67,8 @@ class Levels {
     lines,
     thin,
     insert,
+    begin_right,
+    right,
     begin_relax,
     relax,
     unfold,
@@ -90,7 +92,8 @@ class Levels {
   std::uint32_t iterations(std::uint32_t level) const;
   std::uint32_t iterations_for_lines(const Samples& samples) const;
   double line_rate(std::uint32_t level) const;
-  Status right_faces(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) const;
+  Status begin_right(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
+  Status begin_relax(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena);
   RelaxOptions relax_options() const;
 
   LevelPlan plan_;
@@ -101,6 +104,7 @@ class Levels {
   Backbones features_;
   ThinOut thin_out_;
   bool thins_surface_ = false;  // and not the lines
+  WorstFaces worst_faces_;
   Relaxation relaxation_;
   SplitEdges split_;
   ArenaMark scratch_;

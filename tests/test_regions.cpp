@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <set>
+#include <vector>
 
 #include "support/plane_shapes.h"
 
@@ -24,21 +26,34 @@ TEST_CASE("regions: each is split in two connected parts, again and again, down 
     while (!regions.ready()) REQUIRE(regions.step(arena).is_ok());
     const std::size_t used = arena.used();
     std::size_t taken = 0;
+    std::vector<FaceId> done;
     while (!regions.empty()) {
+      Span<const FaceId> listed[3];
+      const std::size_t count = regions.next({listed, 3});
+      REQUIRE(count >= 1);
+      REQUIRE(listed[0].data == regions.front().data);
+      for (std::size_t i = 1; i < count; ++i) {
+        REQUIRE(listed[i].data >= listed[i - 1].data + listed[i - 1].count);
+        REQUIRE(label[listed[i][0u].value] != label[listed[i - 1][0u].value]);
+      }
       const std::vector<FaceId> region(regions.front().begin(), regions.front().end());
       REQUIRE(support::is_connected(piece.surface.mesh, region));
       for (FaceId f : region) REQUIRE(label[f.value] == label[region[0].value]);
       if (region.size() == 1) {
+        REQUIRE(std::find(done.begin(), done.end(), region[0]) == done.end());
+        done.push_back(region[0]);
         regions.take();
         CHECK(regions.share_taken() == doctest::Approx(static_cast<double>(++taken) / static_cast<double>(faces)));
         continue;
       }
+      const std::size_t first = static_cast<std::size_t>(listed[0].data - order.data());
       REQUIRE(regions.split(arena).is_ok());
       CHECK(arena.used() == used);
-      REQUIRE(regions.front().count >= 1);
-      REQUIRE(regions.front().count < region.size());
-      REQUIRE(label[order[taken].value] == label[regions.front()[0].value]);
-      REQUIRE(label[order[taken + regions.front().count].value] != label[order[taken].value]);
+      const std::size_t end = first + region.size();
+      const std::size_t half = end_of_region({order.data(), faces}, {label.data(), faces}, first);
+      REQUIRE(half < end);
+      REQUIRE(end_of_region({order.data(), faces}, {label.data(), faces}, half) == end);
+      if (count > 1) REQUIRE(regions.front().data == listed[1].data);
     }
     CHECK(taken == faces);
     CHECK(std::set<std::uint32_t>(label.begin(), label.end()).size() == faces);

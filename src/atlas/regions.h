@@ -1,4 +1,7 @@
 // The regions of a partition in a row, each to be taken or to be split in two.
+//
+// They are visited in passes: what a split made comes up in the next one. So several regions can be looked at side by
+// side, and what becomes of them does not depend on how many.
 #pragma once
 
 #include "atlas/partition.h"
@@ -17,20 +20,26 @@ class Regions {
   bool ready() const { return ready_; }
 
   /// Whether every region has been taken.
-  bool empty() const { return ready_ && position_ == order_.count; }
-  double share_taken() const { return static_cast<double>(position_) / static_cast<double>(order_.count); }
+  bool empty() const { return ready_ && taken_ == order_.count; }
+  double share_taken() const { return static_cast<double>(taken_) / static_cast<double>(order_.count); }
   /// The faces of the region that is next. Only once `ready()`, as all below.
-  Span<const FaceId> front() const { return order_.slice(position_, end_ - position_); }
+  Span<const FaceId> front() const { return region_at(position_); }
+  /// Lists the regions that are next in this pass, as many as there are and have room, one at least; returns how many.
+  std::size_t next(Span<Span<const FaceId>> regions) const;
+  /// Takes the region that is next. Its label changes.
   void take();
-  /// Splits the region that is next in two connected parts; the one that keeps the label is next. 20 bytes a face and
-  /// 4 a face of the region of scratch, given back.
+  /// Splits the region that is next in two connected parts, both for the next pass. 20 bytes a face and 4 a face of the
+  /// region of scratch, given back.
   Status split(Arena& arena);
 
   DualDistance& distances() { return distances_; }
 
  private:
   void find_far_faces(Span<const FaceId> faces, FaceId (&ends)[2]);
-  void find_end();
+  bool is_taken(std::size_t first) const;
+  std::size_t untaken_from(std::size_t first) const;
+  void go_on_from(std::size_t first);
+  Span<const FaceId> region_at(std::size_t first) const;
 
   Span<std::uint32_t> label_;
   Span<FaceId> order_;
@@ -39,7 +48,7 @@ class Regions {
   ArenaMark mark_;
   bool ready_ = false;
   std::uint32_t next_label_ = 0;
-  std::size_t position_ = 0, end_ = 0;
+  std::size_t position_ = 0, taken_ = 0;  // in faces
 };
 
 /// The end of the run of one label in `order` that starts at `first`.

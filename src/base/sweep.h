@@ -15,10 +15,10 @@ class Sweep {
  public:
   bool is_at_start() const { return next_ == 0; }
 
-  /// Calls visit(id) for the next piece; true when the last element has been visited.
+  /// Calls visit(id) for the next piece, of so many elements; true when the last one has been visited.
   template <class Id, class Visit>
-  bool over(std::size_t count, Visit visit) {
-    const std::size_t end = count - next_ < elements_a_piece ? count : next_ + elements_a_piece;
+  bool over(std::size_t count, Visit visit, std::size_t piece = elements_a_piece) {
+    const std::size_t end = count - next_ < piece ? count : next_ + piece;
     for (; next_ < end; ++next_) visit(Id{static_cast<std::uint32_t>(next_)});
     if (next_ < count) return false;
     next_ = 0;

@@ -181,6 +181,7 @@ Status step_atlas(State& s, bool& done, std::uint64_t& units) {
     options.fall_back_to_charts = s.options.fall_back_to_charts;
     options.atlas.line_rate = s.first_rates.line;
     options.atlas.surface_rate = s.first_rates.surface;
+    options.atlas.parallel = parallel_of(s);
     return s.charting.begin(s.surface, options, *s.arena);
   }
   if (!s.charting.done()) {

@@ -1,7 +1,20 @@
 #include "pipeline/make_atlas.h"
 
+#include "base/array_bytes.h"
+
 namespace isolod {
 inline namespace v1 {
+
+namespace {
+
+constexpr std::size_t most_at_once = 8;
+
+/// For a try at a chart; what most need.
+std::size_t block_bytes(const AtlasOptions& options) {
+  return aligned(std::size_t{320} * options.most_faces_per_chart + 4096);
+}
+
+}  // namespace
 
 Status MakeAtlas::begin(const Surface& surface, const AtlasOptions& options, Arena& arena) {
   surface_ = &surface;
@@ -39,32 +52,66 @@ Status MakeAtlas::keep_map(Span<const Vec2f> uv, Arena& arena) {
   return {};
 }
 
-Status MakeAtlas::try_map(Span<const FaceId> faces, bool& good, Arena& arena) {
-  const ScratchScope scope(arena);
+Status MakeAtlas::find_map(Try& attempt, Arena& arena) const {
+  attempt.is_good = false;
+  if (is_too_large(attempt.faces)) return {};
   Chart chart;
-  Span<Vec2f> uv;
   MapVerdict verdict = MapVerdict::good;
-  ISOLOD_TRY(build_chart(*surface_, faces, label_, place_, chart, arena));
-  ISOLOD_TRY(arena.scratch(chart.mesh.vertex_count(), uv));
-  ISOLOD_TRY(flatten_chart(*surface_, chart, options_.flatten, uv, verdict, arena));
-  good = verdict == MapVerdict::good;
-  return good ? keep_map(uv, arena) : Status();
+  ISOLOD_TRY(build_chart(*surface_, attempt.faces, label_, place_, chart, arena));
+  ISOLOD_TRY(arena.scratch(chart.mesh.vertex_count(), attempt.uv));
+  ISOLOD_TRY(flatten_chart(*surface_, chart, options_.flatten, attempt.uv, verdict, arena));
+  attempt.is_good = verdict == MapVerdict::good;
+  return {};
 }
 
-Status MakeAtlas::step(Arena& arena) {
-  if (!regions_.ready()) return regions_.step(arena);
-  if (place_.empty()) return arena.scratch(label_.count, place_);
-  const Span<const FaceId> faces = regions_.front();
-  for (std::size_t i = 0; i < faces.count; ++i) place_[faces[i]] = static_cast<std::uint32_t>(i);
-  bool good = false;
-  if (!is_too_large(faces)) ISOLOD_TRY(try_map(faces, good, arena));
-  if (good) {
+/// One block less than there is room for: the maps that are kept need some.
+std::size_t MakeAtlas::tries_at_once(const Arena& arena) const {
+  if (!options_.parallel.has_threads()) return 1;
+  const std::size_t blocks = arena.free_bytes() / block_bytes(options_);
+  return blocks < 2 ? 1 : blocks - 1 < most_at_once ? blocks - 1 : most_at_once;
+}
+
+/// Each in a block of its own; whoever finds that too small tries again in all that is free.
+Status MakeAtlas::find_side_by_side(Span<Try> tries, Arena& arena) const {
+  const std::size_t bytes = block_bytes(options_);
+  Span<unsigned char> room;
+  ISOLOD_TRY(arena.scratch(tries.count * bytes, room));
+  options_.parallel.run(static_cast<std::uint32_t>(tries.count), [&](std::uint32_t i) {
+    Arena block(room.data + i * bytes, bytes);
+    tries[i].status = find_map(tries[i], block);
+  });
+  for (Try& attempt : tries) {
+    ISOLOD_TRY(attempt.status == Status::out_of_memory ? find_map(attempt, arena) : attempt.status);
+  }
+  return {};
+}
+
+Status MakeAtlas::take_or_split(const Try& attempt, Arena& arena) {
+  const Span<const FaceId> faces = attempt.faces;
+  if (attempt.is_good) {
+    ISOLOD_TRY(keep_map(attempt.uv, arena));
     regions_.take();
     ++chart_count_;
     return {};
   }
   if (faces.count == 1) return fail(Status::no_convergence, Element::triangle, surface_->source_face[faces[0u]]);
   return regions_.split(arena);
+}
+
+Status MakeAtlas::step(Arena& arena) {
+  if (!regions_.ready()) return regions_.step(arena);
+  if (place_.empty()) return arena.scratch(label_.count, place_);
+  const ScratchScope scope(arena);
+  Span<const FaceId> regions[most_at_once];
+  Try room[most_at_once];
+  const Span<Try> tries(room, regions_.next({regions, tries_at_once(arena)}));
+  for (std::size_t i = 0; i < tries.count; ++i) {
+    tries[i].faces = regions[i];
+    for (std::size_t k = 0; k < regions[i].count; ++k) place_[regions[i][k]] = static_cast<std::uint32_t>(k);
+  }
+  ISOLOD_TRY(tries.count == 1 ? find_map(tries[0u], arena) : find_side_by_side(tries, arena));
+  for (const Try& attempt : tries) ISOLOD_TRY(take_or_split(attempt, arena));
+  return {};
 }
 
 Status MakeAtlas::finish(Surface& surface, Atlas& atlas, ChartMaps& maps, Arena& arena) {

@@ -15,6 +15,7 @@ struct AtlasOptions {
   double samples_per_chart = 250;
   std::uint32_t most_faces_per_chart = 4000;
   FlattenOptions flatten;
+  Parallel parallel;
 };
 
 /// A stage: begin, step until done, finish. Results: 8 bytes a face for the atlas and 8 bytes a vertex of each chart
@@ -22,7 +23,8 @@ struct AtlasOptions {
 class MakeAtlas {
  public:
   Status begin(const Surface& surface, const AtlasOptions& options, Arena& arena);
-  /// A piece of the partition, then a try at one chart.
+  /// A piece of the partition, then a try at one chart; with threads at as many as find room in what is free, 8 at
+  /// most.
   Status step(Arena& arena);
   bool done() const { return regions_.empty(); }
   double share_done() const { return regions_.share_taken(); }
@@ -31,9 +33,19 @@ class MakeAtlas {
   Status finish(Surface& surface, Atlas& atlas, ChartMaps& maps, Arena& arena);
 
  private:
+  /// A try at a map for a region. The map is scratch.
+  struct Try {
+    Span<const FaceId> faces;
+    Status status;
+    bool is_good = false;
+    Span<Vec2f> uv;
+  };
   bool is_too_large(Span<const FaceId> faces) const;
+  std::size_t tries_at_once(const Arena& arena) const;
+  Status find_map(Try& attempt, Arena& arena) const;
+  Status find_side_by_side(Span<Try> tries, Arena& arena) const;
   Status keep_map(Span<const Vec2f> uv, Arena& arena);
-  Status try_map(Span<const FaceId> faces, bool& good, Arena& arena);
+  Status take_or_split(const Try& attempt, Arena& arena);
 
   const Surface* surface_ = nullptr;
   AtlasOptions options_;

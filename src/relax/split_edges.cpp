@@ -10,6 +10,8 @@ inline namespace v1 {
 
 namespace {
 
+constexpr std::size_t edges_placed_a_piece = 512;  // each by going downhill over the surface
+
 /// The halves of a coarse halfedge in the fine mesh: face 4 f + k holds corner k, face 4 f + 3 the three middles.
 HalfedgeId first_half(HalfedgeId h) { return halfedge(FaceId{4 * face(h).value + h.value % 3}, 0); }
 HalfedgeId second_half(HalfedgeId h) { return halfedge(FaceId{4 * face(h).value + next(h).value % 3}, 2); }
@@ -122,7 +124,10 @@ void SplitEdges::step(Arena& arena) {
   const std::size_t halfedges = coarse_.halfedge_count();
   switch (phase_) {
     case Phase::place:
-      if (sweep_.over<HalfedgeId>(halfedges, [&](HalfedgeId h) { place(h); })) phase_ = Phase::subdivide;
+      if (sweep_.over<HalfedgeId>(
+              halfedges, [&](HalfedgeId h) { place(h); }, edges_placed_a_piece)) {
+        phase_ = Phase::subdivide;
+      }
       return;
     case Phase::subdivide:
       if (!sweep_.over<HalfedgeId>(halfedges, [&](HalfedgeId h) { subdivide(h); })) return;

@@ -7,7 +7,7 @@ inline namespace v1 {
 
 namespace {
 
-constexpr std::size_t most_at_once = 8;
+constexpr std::size_t most_tries = 8;
 
 /// For a try at a chart; what most need.
 std::size_t block_bytes(const AtlasOptions& options) {
@@ -68,7 +68,7 @@ Status MakeAtlas::find_map(Try& attempt, Arena& arena) const {
 std::size_t MakeAtlas::tries_at_once(const Arena& arena) const {
   if (!options_.parallel.has_threads()) return 1;
   const std::size_t blocks = arena.free_bytes() / block_bytes(options_);
-  return blocks < 2 ? 1 : blocks - 1 < most_at_once ? blocks - 1 : most_at_once;
+  return blocks < 2 ? 1 : blocks - 1 < most_tries ? blocks - 1 : most_tries;
 }
 
 /// Each in a block of its own; whoever finds that too small tries again in all that is free.
@@ -102,8 +102,8 @@ Status MakeAtlas::step(Arena& arena) {
   if (!regions_.ready()) return regions_.step(arena);
   if (place_.empty()) return arena.scratch(label_.count, place_);
   const ScratchScope scope(arena);
-  Span<const FaceId> regions[most_at_once];
-  Try room[most_at_once];
+  Span<const FaceId> regions[most_tries];
+  Try room[most_tries];
   const Span<Try> tries(room, regions_.next({regions, tries_at_once(arena)}));
   for (std::size_t i = 0; i < tries.count; ++i) {
     tries[i].faces = regions[i];

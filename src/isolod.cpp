@@ -89,6 +89,7 @@
 #include "result/stitch.cpp"
 
 #include "relax/colours.cpp"
+#include "relax/crease_flips.cpp"
 #include "relax/drop_dead.cpp"
 #include "relax/face_score.cpp"
 #include "relax/insert.cpp"

@@ -22,7 +22,12 @@ Status Finish::step(const Surface& surface, Triangulation& mesh, Samples& sample
       if (!worst_.done()) return {};
       ISOLOD_TRY(worst_.finish(arena));
       arena.rewind_scratch(mark_);
-      phase_ = Phase::mend;
+      phase_ = options_.features == nullptr ? Phase::mend : Phase::creases;
+      creases_.begin(surface, mesh, samples);
+      return {};
+    case Phase::creases:
+      creases_.step();
+      if (creases_.done()) phase_ = Phase::mend;
       return {};
     case Phase::mend:
       mend_flat_faces(surface, mesh, samples);

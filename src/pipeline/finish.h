@@ -2,6 +2,7 @@
 // triangles listed.
 #pragma once
 
+#include "relax/crease_flips.h"
 #include "relax/mend_flat.h"
 #include "relax/worst_faces.h"
 #include "result/fit.h"
@@ -30,11 +31,12 @@ class Finish {
   Span<std::uint32_t> triangles;  ///< 3 a face
 
  private:
-  enum class Phase : std::uint8_t { begin, improve, mend, lift, fit, list, done };
+  enum class Phase : std::uint8_t { begin, improve, creases, mend, lift, fit, list, done };
   FinishOptions options_;
   Phase phase_ = Phase::done;
   WorstFaces worst_;
   ArenaMark mark_;
+  CreaseFlips creases_;
   Fit fit_;
 };
 

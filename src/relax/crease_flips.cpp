@@ -1,0 +1,76 @@
+#include "relax/crease_flips.h"
+
+#include "relax/face_score.h"
+#include "sample/descent.h"
+
+namespace isolod {
+inline namespace v1 {
+
+namespace {
+
+constexpr double cosine_of_bend = 0.966;  // 15 degrees
+constexpr double least_off = 0.05;        // of an edge, from its middle to the surface
+constexpr double most_kept_off = 0.8;     // of that, for the other diagonal
+constexpr double score_of_30_degrees = 0.58;
+
+/// The four samples around an edge a b, with apexes c and d.
+struct Quad {
+  VertexId corner[4];
+  Vec3 a, b, c, d;
+
+  Quad(const Surface& surface, const Halfedges& mesh, const Samples& samples, HalfedgeId h)
+      : corner{mesh.origin[h], mesh.target(h), mesh.apex(h), mesh.apex(mesh.twin[h])} {
+    const auto at = [&](std::uint32_t i) { return position_of(surface, samples, SampleId{corner[i].value}); };
+    a = at(0), b = at(1), c = at(2), d = at(3);
+  }
+  double cosine() const { return dot(unit(cross(b - a, c - a)), unit(cross(a - b, d - b))); }
+};
+
+/// How far a point is from the surface, as going downhill from the free corners finds; -1 without any.
+double distance_off(const Surface& surface, const Samples& samples, const Quad& quad, Vec3 p) {
+  double least = -1;
+  for (VertexId v : quad.corner) {
+    if (samples.held[v]) continue;
+    const double off = distance(position_of(surface, find_nearest(surface, samples.place[v].face, p)), p);
+    if (least < 0 || off < least) least = off;
+  }
+  return least;
+}
+
+bool crosses_crease(const Surface& surface, const Triangulation& t, const Samples& samples, HalfedgeId h) {
+  const Quad quad(surface, t.mesh, samples, h);
+  if (quad.cosine() > cosine_of_bend || !can_flip(t, h)) return false;
+  const double off = distance_off(surface, samples, quad, midpoint(quad.a, quad.b));
+  if (!(off > least_off * distance(quad.a, quad.b))) return false;
+  if (!(distance_off(surface, samples, quad, midpoint(quad.c, quad.d)) < most_kept_off * off)) return false;
+  const FlipScores scores = flip_scores(surface, t.mesh, samples, h);
+  return scores.after >= smaller(score_of_30_degrees, scores.before);
+}
+
+}  // namespace
+
+void CreaseFlips::begin(const Surface& surface, Triangulation& mesh, const Samples& samples) {
+  surface_ = &surface;
+  mesh_ = &mesh;
+  samples_ = &samples;
+  sweep_ = {};
+  is_done_ = false;
+  round_ = flips_ = flips_before_ = 0;
+}
+
+void CreaseFlips::look_at(HalfedgeId h) {
+  const HalfedgeId g = mesh_->mesh.twin[h];
+  if (g.is_none() || g < h || mesh_->is_fixed(h) || !crosses_crease(*surface_, *mesh_, *samples_, h)) return;
+  flip(*mesh_, h);
+  ++flips_;
+}
+
+void CreaseFlips::step() {
+  constexpr std::uint32_t most_rounds = 3;
+  if (!sweep_.over<HalfedgeId>(mesh_->mesh.halfedge_count(), [&](HalfedgeId h) { look_at(h); })) return;
+  is_done_ = flips_ == flips_before_ || ++round_ == most_rounds;
+  flips_before_ = flips_;
+}
+
+}  // namespace v1
+}  // namespace isolod

@@ -1,7 +1,6 @@
 #include "pipeline/chart_stage.h"
 
-#include "base/array_bytes.h"
-#include "base/status.h"
+#include "base/blocks.h"
 #include "pipeline/memory_plan.h"
 #include "plane/lloyd.h"
 
@@ -11,8 +10,6 @@ inline namespace v1 {
 namespace {
 
 using State = Remesher::State;
-
-constexpr std::size_t most_at_once = 8;
 
 /// F = 2 V - B - 2 chi, B the samples on boundaries.
 std::size_t result_face_count(const State& s) {
@@ -41,7 +38,6 @@ void relax_sites(State& s, std::uint32_t chart, Lloyd& lloyd) {
 
 /// What a chart comes to. The triangulation is scratch.
 struct RelaxedChart {
-  Status status;
   ChartSites sites;
   std::uint64_t units = 0;
 };
@@ -62,24 +58,10 @@ Status relax_chart(State& s, std::size_t chart, RelaxedChart& out, Arena& arena)
   return {};
 }
 
-/// Each chart in a block of its own. Who wants to see every iteration gets them in their order.
-std::size_t charts_at_once(const State& s) {
-  if (s.hooks.parallel_for == nullptr || s.hooks.lloyd != nullptr) return 1;
-  const std::size_t room = s.arena->free_bytes() / aligned(s.sizes.chart_bytes);
-  const std::size_t left = s.atlas.chart_count() - s.piece, most = left < most_at_once ? left : most_at_once;
-  return room < most ? most_of(room, 1) : most;
-}
-
-/// The next charts, each in its own part of what is free.
-Status relax_side_by_side(State& s, Span<RelaxedChart> charts) {
-  const std::size_t bytes = aligned(s.sizes.chart_bytes);
-  Span<unsigned char> room;
-  ISOLOD_TRY(s.arena->scratch(charts.count * bytes, room));
-  parallel_of(s).run(static_cast<std::uint32_t>(charts.count), [&](std::uint32_t i) {
-    Arena arena(room.data + i * bytes, bytes);
-    charts[i].status = relax_chart(s, s.piece + i, charts[i], arena);
-  });
-  return {};
+/// Who wants to see every iteration gets charts in their order.
+std::size_t charts_at_once(const State& s, const Parallel& parallel) {
+  const std::size_t left = s.atlas.chart_count() - s.piece;
+  return s.hooks.lloyd != nullptr ? 1 : blocks_at_once(parallel, left, s.sizes.chart_bytes, 0, *s.arena);
 }
 
 }  // namespace
@@ -90,16 +72,14 @@ Status step_charts(State& s, bool& done, std::uint64_t& units) {
     ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.plan.first_count, *s.arena));
   }
   const ScratchScope scope(*s.arena);
-  RelaxedChart room[most_at_once];
-  const Span<RelaxedChart> charts(room, charts_at_once(s));
-  if (charts.count == 1) {
-    charts[0].status = relax_chart(s, s.piece, charts[0], *s.arena);
-  } else {
-    ISOLOD_TRY(relax_side_by_side(s, charts));
-  }
+  const Parallel parallel = parallel_of(s);
+  RelaxedChart room[most_blocks];
+  const Span<RelaxedChart> charts(room, charts_at_once(s, parallel));
+  ISOLOD_TRY(run_in_blocks(parallel, charts.count, s.sizes.chart_bytes, *s.arena, [&](std::uint32_t i, Arena& block) {
+    return relax_chart(s, s.piece + i, charts[i], block);
+  }));
   units = 0;
   for (const RelaxedChart& chart : charts) {
-    ISOLOD_TRY(chart.status);
     ISOLOD_TRY(s.stitch.add(chart.sites));
     units += chart.units;
   }

@@ -1,18 +1,14 @@
 #include "pipeline/make_atlas.h"
 
-#include "base/array_bytes.h"
+#include "base/blocks.h"
 
 namespace isolod {
 inline namespace v1 {
 
 namespace {
 
-constexpr std::size_t most_tries = 8;
-
-/// For a try at a chart; what most need.
-std::size_t block_bytes(const AtlasOptions& options) {
-  return aligned(std::size_t{320} * options.most_faces_per_chart + 4096);
-}
+/// What most tries at a chart need.
+std::size_t try_bytes(const AtlasOptions& options) { return std::size_t{320} * options.most_faces_per_chart + 4096; }
 
 }  // namespace
 
@@ -64,26 +60,9 @@ Status MakeAtlas::find_map(Try& attempt, Arena& arena) const {
   return {};
 }
 
-/// One block less than there is room for: the maps that are kept need some.
-std::size_t MakeAtlas::tries_at_once(const Arena& arena) const {
-  if (!options_.parallel.has_threads()) return 1;
-  const std::size_t blocks = arena.free_bytes() / block_bytes(options_);
-  return blocks < 2 ? 1 : blocks - 1 < most_tries ? blocks - 1 : most_tries;
-}
-
-/// Each in a block of its own; whoever finds that too small tries again in all that is free.
-Status MakeAtlas::find_side_by_side(Span<Try> tries, Arena& arena) const {
-  const std::size_t bytes = block_bytes(options_);
-  Span<unsigned char> room;
-  ISOLOD_TRY(arena.scratch(tries.count * bytes, room));
-  options_.parallel.run(static_cast<std::uint32_t>(tries.count), [&](std::uint32_t i) {
-    Arena block(room.data + i * bytes, bytes);
-    tries[i].status = find_map(tries[i], block);
-  });
-  for (Try& attempt : tries) {
-    ISOLOD_TRY(attempt.status == Status::out_of_memory ? find_map(attempt, arena) : attempt.status);
-  }
-  return {};
+/// For a split, and for the maps that are kept.
+std::size_t MakeAtlas::reserve() const {
+  return 28 * label_.count + most_blocks * sizeof(Vec2f) * (std::size_t{options_.most_faces_per_chart} + 4);
 }
 
 Status MakeAtlas::take_or_split(const Try& attempt, Arena& arena) {
@@ -102,14 +81,17 @@ Status MakeAtlas::step(Arena& arena) {
   if (!regions_.ready()) return regions_.step(arena);
   if (place_.empty()) return arena.scratch(label_.count, place_);
   const ScratchScope scope(arena);
-  Span<const FaceId> regions[most_tries];
-  Try room[most_tries];
-  const Span<Try> tries(room, regions_.next({regions, tries_at_once(arena)}));
+  const std::size_t bytes = try_bytes(options_);
+  Span<const FaceId> regions[most_blocks];
+  Try room[most_blocks];
+  const std::size_t most = blocks_at_once(options_.parallel, most_blocks, bytes, reserve(), arena);
+  const Span<Try> tries(room, regions_.next({regions, most}));
   for (std::size_t i = 0; i < tries.count; ++i) {
     tries[i].faces = regions[i];
     for (std::size_t k = 0; k < regions[i].count; ++k) place_[regions[i][k]] = static_cast<std::uint32_t>(k);
   }
-  ISOLOD_TRY(tries.count == 1 ? find_map(tries[0u], arena) : find_side_by_side(tries, arena));
+  ISOLOD_TRY(run_in_blocks(options_.parallel, tries.count, bytes, arena,
+                           [&](std::uint32_t i, Arena& block) { return find_map(tries[i], block); }));
   for (const Try& attempt : tries) ISOLOD_TRY(take_or_split(attempt, arena));
   return {};
 }

@@ -36,14 +36,12 @@ class MakeAtlas {
   /// A try at a map for a region. The map is scratch.
   struct Try {
     Span<const FaceId> faces;
-    Status status;
     bool is_good = false;
     Span<Vec2f> uv;
   };
   bool is_too_large(Span<const FaceId> faces) const;
-  std::size_t tries_at_once(const Arena& arena) const;
   Status find_map(Try& attempt, Arena& arena) const;
-  Status find_side_by_side(Span<Try> tries, Arena& arena) const;
+  std::size_t reserve() const;
   Status keep_map(Span<const Vec2f> uv, Arena& arena);
   Status take_or_split(const Try& attempt, Arena& arena);
 

@@ -33,7 +33,7 @@ struct Relaxed {
   }
 
   Status run(Finish& finish, bool fits) {
-    finish.begin({true, fits, {}, s.levels.features()});
+    finish.begin({true, fits, s.options.feature_angle > 0, {}, s.levels.features()});
     Status status;
     for (steps = 0; status.is_ok() && !finish.done(); ++steps) {
       REQUIRE(steps < 100000);

@@ -20,7 +20,9 @@ struct Coarse : support::Stitched {
     const ScratchScope scope(block.arena);
     REQUIRE(sample_features_anew(s.surface, lines, {}, s.samples, block.arena).is_ok());
     Relaxation relaxation;
-    REQUIRE(relaxation.begin(s.surface, features(), mesh, s.samples, {}, block.arena).is_ok());
+    RelaxOptions options;
+    options.line_rate = s.first_rates.line;
+    REQUIRE(relaxation.begin(s.surface, features(), mesh, s.samples, options, block.arena).is_ok());
     for (int i = 0; i < 8; ++i) relaxation.iterate();
   }
   void split(std::uint32_t spare) {

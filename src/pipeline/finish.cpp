@@ -22,7 +22,7 @@ Status Finish::step(const Surface& surface, Triangulation& mesh, Samples& sample
       if (!worst_.done()) return {};
       ISOLOD_TRY(worst_.finish(arena));
       arena.rewind_scratch(mark_);
-      phase_ = options_.features == nullptr ? Phase::mend : Phase::creases;
+      phase_ = options_.turns_creases ? Phase::creases : Phase::mend;
       creases_.begin(surface, mesh, samples);
       return {};
     case Phase::creases:

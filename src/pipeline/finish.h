@@ -13,8 +13,9 @@ namespace isolod {
 inline namespace v1 {
 
 struct FinishOptions {
-  bool improves = true;  ///< the worst faces
-  bool fits = false;     ///< vertices leave the surface where that lessens the distance
+  bool improves = true;        ///< the worst faces
+  bool fits = false;           ///< vertices leave the surface where that lessens the distance
+  bool turns_creases = false;  ///< edges across creases blunter than the features that were asked for
   WorstFacesOptions worst;
   const Backbones* features = nullptr;  ///< those of the surface without seams, if any; they must stay until done
 };

@@ -401,7 +401,8 @@ Status step_lift(State& s, bool& done, std::uint64_t& units) {
   units = s.options.vertex_count;
   if (!s.stage_begun) {
     const Backbones* features = s.options.remove_seams ? s.levels.features() : nullptr;
-    s.finish.begin({s.options.remove_seams, s.options.fit, polish_options(s), features});
+    const bool has_features = s.options.feature_angle > 0;
+    s.finish.begin({s.options.remove_seams, s.options.fit, has_features, polish_options(s), features});
   }
   ISOLOD_TRY(s.finish.step(s.surface, s.stitch.mesh(), s.samples, *s.arena));
   done = s.finish.done();

@@ -130,7 +130,7 @@ Status Lods::step(Surface& surface, Arena& arena) {
     case Phase::relax:
       ISOLOD_TRY(levels_.step(surface, mesh_, samples_, arena));
       if (!levels_.done()) return {};
-      finish_.begin({true, options_.fit, polish_options(), levels_.features()});
+      finish_.begin({true, options_.fit, options_.feature_angle > 0, polish_options(), levels_.features()});
       phase_ = Phase::finish;
       return {};
     case Phase::finish:

@@ -1,8 +1,8 @@
 // Edges that lie across a blunt crease turned along it.
 //
-// On a mesh with feature lines, creases too blunt to be lines still show: a Delaunay edge across one cuts its corner
+// Where features are asked for, creases too blunt to be features still show: a Delaunay edge across one cuts its corner
 // off. Where the other diagonal of its two faces keeps nearer to the surface, and neither face gets bad, it is taken.
-// On smooth shapes without lines this would cost more regular triangles than it is worth.
+// On shapes that are curved all over this would cost more regular triangles than it is worth.
 #pragma once
 
 #include "base/sweep.h"

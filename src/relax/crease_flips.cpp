@@ -14,11 +14,11 @@ constexpr double most_kept_off = 0.8;     // of that, for the other diagonal
 constexpr double score_of_30_degrees = 0.58;
 
 /// The four samples around an edge a b, with apexes c and d.
-struct Quad {
+struct Kite {
   VertexId corner[4];
   Vec3 a, b, c, d;
 
-  Quad(const Surface& surface, const Halfedges& mesh, const Samples& samples, HalfedgeId h)
+  Kite(const Surface& surface, const Halfedges& mesh, const Samples& samples, HalfedgeId h)
       : corner{mesh.origin[h], mesh.target(h), mesh.apex(h), mesh.apex(mesh.twin[h])} {
     const auto at = [&](std::uint32_t i) { return position_of(surface, samples, SampleId{corner[i].value}); };
     a = at(0), b = at(1), c = at(2), d = at(3);
@@ -27,9 +27,9 @@ struct Quad {
 };
 
 /// How far a point is from the surface, as going downhill from the free corners finds; -1 without any.
-double distance_off(const Surface& surface, const Samples& samples, const Quad& quad, Vec3 p) {
+double distance_off(const Surface& surface, const Samples& samples, const Kite& kite, Vec3 p) {
   double least = -1;
-  for (VertexId v : quad.corner) {
+  for (VertexId v : kite.corner) {
     if (samples.held[v]) continue;
     const double off = distance(position_of(surface, find_nearest(surface, samples.place[v].face, p)), p);
     if (least < 0 || off < least) least = off;
@@ -38,11 +38,11 @@ double distance_off(const Surface& surface, const Samples& samples, const Quad& 
 }
 
 bool crosses_crease(const Surface& surface, const Triangulation& t, const Samples& samples, HalfedgeId h) {
-  const Quad quad(surface, t.mesh, samples, h);
-  if (quad.cosine() > cosine_of_bend || !can_flip(t, h)) return false;
-  const double off = distance_off(surface, samples, quad, midpoint(quad.a, quad.b));
-  if (!(off > least_off * distance(quad.a, quad.b))) return false;
-  if (!(distance_off(surface, samples, quad, midpoint(quad.c, quad.d)) < most_kept_off * off)) return false;
+  const Kite kite(surface, t.mesh, samples, h);
+  if (kite.cosine() > cosine_of_bend || !can_flip(t, h)) return false;
+  const double off = distance_off(surface, samples, kite, midpoint(kite.a, kite.b));
+  if (!(off > least_off * distance(kite.a, kite.b))) return false;
+  if (!(distance_off(surface, samples, kite, midpoint(kite.c, kite.d)) < most_kept_off * off)) return false;
   const FlipScores scores = flip_scores(surface, t.mesh, samples, h);
   return scores.after >= smaller(score_of_30_degrees, scores.before);
 }

@@ -98,6 +98,12 @@ for file in src/base src/mesh src/surface src/sample src/atlas src/plane src/res
 done >"$work/found"
 no_findings "the unity file holds every source" "$work/found"
 
+# All sources in one share their unnamed namespaces.
+if command -v c++ >/dev/null; then
+  c++ -std=c++17 -ffp-contract=off -Iinclude -Isrc -fsyntax-only src/isolod.cpp >"$work/found" 2>&1
+  no_findings "the unity file compiles" "$work/found"
+fi
+
 # A shared library shows what is marked, so every public function is.
 grep -nE '^[A-Za-z_].*\(' include/isolod/*.h |
   grep -vE ':(ISOLOD_API|inline|constexpr|template|static|typedef|class|struct|enum) ' >"$work/found"

@@ -5,20 +5,20 @@ using namespace isolod;
 namespace golden {
 
 const Case cases[] = {
-    {"sphere", 1280, 500, "plain", [](Options&) {}},
-    {"sphere", 1280, 2200, "plain", [](Options&) {}},
-    {"head", 2000, 1000, "plain", [](Options&) {}},
-    {"head", 2000, 1000, "curvature,gamma=1.5,smoothing=3",
+    {"sphere", 1280, 300, "plain", [](Options&) {}},
+    {"sphere", 1280, 2020, "plain", [](Options&) {}},
+    {"head", 2000, 400, "plain", [](Options&) {}},
+    {"head", 2000, 400, "curvature,gamma=1.5,smoothing=3",
      [](Options& o) { o.density = DensitySource::curvature, o.gamma = 1.5, o.smoothing_passes = 3; }},
-    {"bracket", 800, 1500, "angle=30", [](Options& o) { o.feature_angle = 30; }},
-    {"bracket", 800, 1500, "angle=30,paper-calibration,paper-weight",
+    {"bracket", 800, 800, "angle=30", [](Options& o) { o.feature_angle = 30; }},
+    {"bracket", 800, 200, "angle=30,paper-calibration,paper-weight",
      [](Options& o) { o.feature_angle = 30, o.calibration = Calibration::paper, o.weight = LloydWeight::paper; }},
-    {"cube", 12, 700, "angle=30", [](Options& o) { o.feature_angle = 30; }},
-    {"cube", 12, 701, "angle=30,curvature",
+    {"cube", 12, 200, "angle=30", [](Options& o) { o.feature_angle = 30; }},
+    {"cube", 12, 201, "angle=30,curvature",
      [](Options& o) { o.feature_angle = 30, o.density = DensitySource::curvature; }},
-    {"plate3", 600, 900, "plain", [](Options&) {}},
-    {"lattice", 2000, 1200, "plain", [](Options&) {}},
-    {"cylinder_open", 500, 400, "plain", [](Options&) {}},
+    {"plate3", 600, 400, "plain", [](Options&) {}},
+    {"lattice", 2000, 500, "plain", [](Options&) {}},
+    {"cylinder_open", 500, 200, "plain", [](Options&) {}},
 };
 const std::size_t case_count = sizeof cases / sizeof cases[0];
 

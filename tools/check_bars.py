@@ -13,7 +13,8 @@ BARS = {
     "lines": "sharp and boundary lines within max(0.02 %, 1.2 sagittas) of edges, straight ones 1e-6, corners in place",
     "density": "where curvature sets the density: rank correlation of wished and realised >= 0.9",
     "fit": "with --fit: RMS <= 0.7 of the same mesh unfitted, Hausdorff no greater, Q mean no more than 0.02 lower, no flip",
-    "time": "bunny to 10,000 vertices in 3 s and 64 MB",
+    "arena": "bunny to 10,000 vertices in 64 MB",
+    "time": "bunny to 10,000 vertices in 3 s; not with --ci, which may run on a busy machine",
     "even": "smooth closed: Q mean >= 0.93, valence 6 >= 94 %, cells vary by <= 0.045, least angle >= 32 and none under "
             "30 but near cones; elephant, eight, duck, dragon: Q mean >= 0.92, valence 6 >= 92 %",
     "small": "with sharp lines: Q least >= 0.3, mean >= 0.91, under 30 degrees only in wedges under 45 or beside pinned "
@@ -236,9 +237,12 @@ def judge_case(case):
     if "handles" in case.bars:
         flips = compared["flipped_triangles_robust"]
         verdicts.append(verdict_of("handles", label(case), [("flips", flips, flips == 0)]))
+    if "arena" in case.bars:
+        megabytes = found["report"]["arena_bytes"] / 1048576
+        verdicts.append(verdict("arena", megabytes <= 64, label(case), f"{megabytes:.1f} MB"))
     if "time" in case.bars:
-        seconds, megabytes = found["report"]["seconds"], found["report"]["arena_bytes"] / 1048576
-        verdicts.append(verdict("time", seconds <= 3 and megabytes <= 64, label(case), f"{seconds:.2f} s, {megabytes:.1f} MB"))
+        seconds = found["report"]["seconds"]
+        verdicts.append(verdict("time", seconds <= 3, label(case), f"{seconds:.2f} s"))
     return verdicts
 
 

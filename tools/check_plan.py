@@ -35,18 +35,18 @@ ROWS = {
     "lods": "several levels of detail at once",
     "bad": "broken files",
 }
-OF_MODELS = {"topology", "smooth", "crossings", "sharp", "boundary", "density", "time"}
+OF_MODELS = {"topology", "smooth", "crossings", "sharp", "boundary", "density", "arena", "time"}
 
 
 def make_size(shape):
     return "4000" if shape in ("bracket", "plate", "lattice") else "20000"
 
 
-def bars_by_default(name):
+def bars_by_default(args, name):
     """What a model has to show at 10,000 vertices without options."""
     bars = {"topology", "crossings"}
     for bar, names in {"smooth": SMOOTH, "even": SMOOTH + ROUGHER, "boundary": OPEN, "near": BESIDE_PEER,
-                       "mass": WEIGHED, "time": ["cgal-bunny00"]}.items():
+                       "mass": WEIGHED, "arena": ["cgal-bunny00"], "time": [] if args.ci else ["cgal-bunny00"]}.items():
         bars |= {bar} if name in names else set()
     return bars
 
@@ -79,7 +79,7 @@ def all_cases(args, models):
         for vertices in counts:
             bars = {"topology"} if vertices != 10000 else {"topology", "crossings"}
             if vertices == 10000 and not options and not args.options:
-                bars = bars_by_default(name)
+                bars = bars_by_default(args, name)
             yield Case(name, *files, vertices, options + more, bars)
         if name in FITTED and args.features is None:
             sharp = ["--features", "40"] if name in SHARP else []

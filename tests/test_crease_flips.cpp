@@ -12,7 +12,7 @@ using support::Soup;
 
 namespace {
 
-/// Two faces over a roof whose ridge is at x = 0.5, their edge across the ridge, half as long as `width`.
+/// Two faces over a roof whose ridge is at x = 0.5, their edge across the ridge, `width` long to each side.
 struct Roof {
   Roof(double slope, double width)
       : piece(support::bent(support::square_grid(8), [&](Vec3 p) { return on_roof(p, slope); })),

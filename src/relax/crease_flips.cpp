@@ -1,7 +1,6 @@
 #include "relax/crease_flips.h"
 
 #include "relax/face_score.h"
-#include "sample/descent.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -26,23 +25,13 @@ struct Kite {
   double cosine() const { return dot(unit(cross(b - a, c - a)), unit(cross(a - b, d - b))); }
 };
 
-/// How far a point is from the surface, as going downhill from the free corners finds; -1 without any.
-double distance_off(const Surface& surface, const Samples& samples, const Kite& kite, Vec3 p) {
-  double least = -1;
-  for (VertexId v : kite.corner) {
-    if (samples.held[v]) continue;
-    const double off = distance(position_of(surface, find_nearest(surface, samples.place[v].face, p)), p);
-    if (least < 0 || off < least) least = off;
-  }
-  return least;
-}
-
 bool crosses_crease(const Surface& surface, const Triangulation& t, const Samples& samples, HalfedgeId h) {
   const Kite kite(surface, t.mesh, samples, h);
   if (kite.cosine() > cosine_of_bend || !can_flip(t, h)) return false;
-  const double off = distance_off(surface, samples, kite, midpoint(kite.a, kite.b));
+  const double off = find_foot(surface, samples, kite.corner, midpoint(kite.a, kite.b)).off;
   if (!(off > least_off * distance(kite.a, kite.b))) return false;
-  if (!(distance_off(surface, samples, kite, midpoint(kite.c, kite.d)) < most_kept_off * off)) return false;
+  const double then = find_foot(surface, samples, kite.corner, midpoint(kite.c, kite.d)).off;
+  if (!(then < most_kept_off * off)) return false;
   const FlipScores scores = flip_scores(surface, t.mesh, samples, h);
   return scores.after >= smaller(score_of_30_degrees, scores.before);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/triangulation.h"
+#include "sample/descent.h"
 #include "sample/samples.h"
 
 namespace isolod {
@@ -29,6 +30,23 @@ inline double lessened_by_turn(double score, double cosine) {
 /// equilateral face, less for a needle, 0 without area.
 double face_score(const Stand& a, const Stand& b, const Stand& c);
 double face_score(const Surface& surface, const Samples& samples, const VertexId (&corners)[3]);
+
+/// The nearest place to a point that going downhill from the free ones of some samples finds.
+struct Foot {
+  SurfacePlace place;
+  double off = -1;  ///< how far it is; -1 where all are held
+};
+template <std::size_t n>
+Foot find_foot(const Surface& surface, const Samples& samples, const VertexId (&around)[n], Vec3 point) {
+  Foot best;
+  for (VertexId v : around) {
+    if (samples.held[v]) continue;
+    const SurfacePlace place = find_nearest(surface, samples.place[v].face, point);
+    const double off = distance(position_of(surface, place), point);
+    if (best.off < 0 || off < best.off) best = {place, off};
+  }
+  return best;
+}
 
 /// What a face should have at least.
 constexpr double fair_score = 0.2;

@@ -52,19 +52,11 @@ StarMoves::EdgeRange StarMoves::edge_range(VertexId v) const {
   return range;
 }
 
-/// The cosine between a face and the surface under its centroid: there it is the nearest of the places that going
-/// downhill from its free corners finds.
+/// The cosine between a face and the surface under its centroid.
 double StarMoves::cosine_at_centroid(const VertexId (&corners)[3]) const {
   const Vec3 a = at(corners[0]), b = at(corners[1]), c = at(corners[2]), centroid = 1.0 / 3 * (a + b + c);
-  double least = 1e300;
-  Vec3 normal{0, 0, 0};
-  for (VertexId v : corners) {
-    if (samples_->held[v]) continue;
-    const SurfacePlace foot = find_nearest(*surface_, samples_->place[v].face, centroid);
-    const double off = distance(position_of(*surface_, foot), centroid);
-    if (off < least) least = off, normal = area_vector(*surface_, foot.face);
-  }
-  return least < 1e300 ? dot(unit(cross(b - a, c - a)), unit(normal)) : 1;
+  const Foot foot = find_foot(*surface_, *samples_, corners, centroid);
+  return foot.off < 0 ? 1 : dot(unit(cross(b - a, c - a)), unit(area_vector(*surface_, foot.place.face)));
 }
 
 double StarMoves::score(VertexId a, VertexId b, VertexId c) const {

@@ -38,6 +38,7 @@ class StarMoves {
   /// To the centre of its star, unless that spoils it below `wanted_score`.
   void centre(VertexId v, double wanted_score);
 
+  /// Whether `score` asks there.
   bool asks_at_centroids = true;
   /// Held samples slide only where a face of theirs scores less.
   double slides_below = 1;

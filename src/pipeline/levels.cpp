@@ -14,12 +14,12 @@ inline namespace v1 {
 namespace {
 
 constexpr double most_on_lines = 0.37;  // of a first level's samples, where there is a finer one
-constexpr std::uint32_t trial_iterations = 15;
 constexpr double most_bent_first = 0.01;  // of the samples of a first level: a split straightens most of these
-constexpr double most_bent = 0.001;       // of those of a later one: what is still folded stays so
+constexpr double most_bent = 0.001;       // of those of a later one, unfolded once: what is folded then stays so
 constexpr double most_large = 0.002;      // of the samples, at the end of any level
 constexpr double most_folded = 0.002;     // of the faces of the result, where there is a finer level to start from
 constexpr std::uint32_t unfold_period = 16;
+constexpr std::uint32_t first_trial = unfold_period - 1, later_trial = 2 * unfold_period - 1;
 constexpr std::uint32_t cover_period = 5;
 constexpr std::uint32_t loop_period = 10;  // iterations from one closing of the loop to the next
 constexpr std::uint32_t quiet_end = 5;     // iterations of a level behind the last one
@@ -219,7 +219,7 @@ Status Levels::unfold(const Surface& surface, Triangulation& mesh, Samples& samp
 /// A piece of an iteration, and at its end what follows.
 void Levels::relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena) {
   if (!relaxation_.step()) return;
-  if (plan_.splits > 0 && iteration_ == trial_iterations && is_bent(samples)) {
+  if (plan_.splits > 0 && iteration_ == (level_ == 0 ? first_trial : later_trial) && is_bent(samples)) {
     phase_ = Phase::unresolved;
     return;
   }

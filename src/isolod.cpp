@@ -14,6 +14,7 @@
 #include "base/fail.cpp"
 #include "base/hash.cpp"
 #include "base/predicates.cpp"
+#include "base/soft_double.cpp"
 #include "base/status.cpp"
 
 #include "mesh/collinear.cpp"

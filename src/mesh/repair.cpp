@@ -33,7 +33,7 @@ Status Repair::step() {
   if (done()) return {};
   const Status status = run_phase();
   if (status.is_ok()) {
-    phase_ = static_cast<Phase>(static_cast<int>(phase_) + 1);
+    if (sweep_.is_at_start()) phase_ = static_cast<Phase>(static_cast<int>(phase_) + 1);
   } else {
     arena_->rewind_scratch(start_);
     phase_ = Phase::done;
@@ -57,6 +57,8 @@ Status Repair::run_phase() {
       return remove_flat_triangles();
     case Phase::link:
       return link_edges();
+    case Phase::close_rings:
+      return close_rings();
     case Phase::orient:
       return orient_triangles();
     case Phase::pair:

@@ -40,7 +40,7 @@
 // copied, also those on opened edges; one_sided_cuts are edges.
 #pragma once
 
-#include "base/index.h"
+#include "base/sweep.h"
 #include "isolod/arena.h"
 #include "isolod/mesh.h"
 #include "isolod/remesh.h"
@@ -62,7 +62,7 @@ class Repair {
   /// Checks the counts. `view`'s data must stay until `finish`.
   Status begin(const MeshView& view, bool weld, Arena& arena);
 
-  /// One phase: a linear pass over the mesh, or a sort.
+  /// A phase: a linear pass over the mesh, or a sort; the sort of the edges a piece at a time.
   Status step();
 
   bool done() const { return phase_ == Phase::done; }
@@ -79,6 +79,7 @@ class Repair {
     find_flat,
     remove_flat,
     link,
+    close_rings,
     orient,
     pair,
     copy_vertices,
@@ -111,6 +112,7 @@ class Repair {
   Status remove_flat_triangles();
   // repair_edges.cpp
   Status link_edges();
+  Status close_rings();
   VertexId lower_end(HalfedgeId h) const;
   VertexId upper_end(HalfedgeId h) const;
   VertexId apex(HalfedgeId h) const;
@@ -153,9 +155,11 @@ class Repair {
   Span<VertexId> merged_;       // per vertex of the caller, while vertices are merged: its set
   Span<FlatTriangle> flats_;    // by face
   Span<HalfedgeId> ring_;       // per halfedge: the next on its edge; from pair_edges on its twin or none
+  Span<HalfedgeId> list_;       // per vertex of the caller, while rings are made: its halfedges as the lower end
   Span<HalfedgeId> crowded_;    // the halfedges on edges with more than two triangles
   Span<VertexId> copied_from_;  // per copy: the caller's vertex
-  ArenaMark before_links_;
+  ArenaMark before_links_, before_lists_;
+  Sweep sweep_;
   std::size_t crowded_count_ = 0;
   std::size_t fullest_ring_ = 0;
 };

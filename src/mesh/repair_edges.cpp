@@ -108,21 +108,27 @@ Status Repair::link_edges() {
   report_.nonmanifold_edges_cut = 0;
   crowded_count_ = fullest_ring_ = 0;
   ISOLOD_TRY(arena_->scratch(corners_.count, ring_));
-  const ScratchScope scope(*arena_);
-  Span<HalfedgeId> list;
-  ISOLOD_TRY(arena_->scratch(view_.vertex_count, list));
-  for (HalfedgeId& first : list) first = none<HalfedgeId>();
+  before_lists_ = arena_->mark();
+  ISOLOD_TRY(arena_->scratch(view_.vertex_count, list_));
+  for (HalfedgeId& first : list_) first = none<HalfedgeId>();
   for (std::size_t i = corners_.count; i-- > 0;) {
     const HalfedgeId h{static_cast<std::uint32_t>(i)};
     ring_[h] = h;
     if (is_dead(face(h))) continue;
-    HalfedgeId& first = list[lower_end(h)];
+    HalfedgeId& first = list_[lower_end(h)];
     ring_[h] = first;
     first = h;
   }
-  for (HalfedgeId first : list) {
-    if (!first.is_none()) make_rings(sort_edges(first));
-  }
+  return {};
+}
+
+Status Repair::close_rings() {
+  const auto close = [&](VertexId v) {
+    if (!list_[v].is_none()) make_rings(sort_edges(list_[v]));
+  };
+  if (!sweep_.over<VertexId>(list_.count, close)) return {};
+  list_ = {};
+  arena_->rewind_scratch(before_lists_);
   return {};
 }
 

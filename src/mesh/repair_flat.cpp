@@ -184,6 +184,7 @@ Status Repair::remove_flat_triangles() {
   ISOLOD_TRY(arena_->scratch(view_.vertex_count, merged_));
   make_singletons(merged_);
   ISOLOD_TRY(link_edges());
+  while (!list_.empty()) ISOLOD_TRY(close_rings());
   FlatRemoval removal{*this, {}, 256 * std::uint64_t{flats_.count + 16}};
   ISOLOD_TRY(removal.heap.begin(flats_.count, *arena_));
   removal.run();

@@ -67,7 +67,7 @@ double Levels::share_done() const {
   double whole = 0, before = 0, cost = 1;
   for (std::uint32_t l = 0; l <= plan_.splits; ++l, cost *= 4) {
     const double all = cost * iterations(l);
-    const double share = l < level_ ? 1 : l > level_ || phase_ != Phase::relax ? 0 : iteration_ / (1.0 * iterations(l));
+    const double share = l < level_ ? 1 : l > level_ ? 0 : iteration_ / (1.0 * iterations(l));
     before += all * share;
     whole += all;
   }
@@ -217,7 +217,7 @@ Status Levels::unfold(const Surface& surface, Triangulation& mesh, Samples& samp
 }
 
 /// A piece of an iteration, and at its end what follows.
-void Levels::relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena) {
+void Levels::relax(const Samples& samples) {
   if (!relaxation_.step()) return;
   if (plan_.splits > 0 && iteration_ == (level_ == 0 ? first_trial : later_trial) && is_bent(samples)) {
     phase_ = Phase::unresolved;
@@ -228,7 +228,10 @@ void Levels::relax(const Surface& surface, const Halfedges& mesh, const Samples&
   if (iteration_ % loop_period == 0 && iteration_ + quiet_end <= last) relaxation_.close_loop_next();
   if (iteration_ % cover_period == cover_period - 1) relaxation_.cover_next();
   if (unfolds()) phase_ = Phase::unfold;
-  if (iteration_ < last) return;
+  if (iteration_ >= last) phase_ = Phase::judge;
+}
+
+void Levels::judge(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena) {
   const bool is_bad = has_slipped(samples) || (is_finest() && is_folded(surface, mesh, samples));
   phase_ = plan_.splits > 0 && is_bad ? Phase::unresolved : is_finest() ? Phase::done : Phase::level_end;
   arena.rewind_scratch(scratch_);
@@ -257,7 +260,6 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
       return insert_where_sparse(surface, plan_.count[level_] - static_cast<std::uint32_t>(samples.count()), mesh,
                                  samples, arena);
     case Phase::begin_right:
-      iteration_ = 0;
       more_iterations_ = is_finest() ? iterations_for_lines(samples) : 0;
       return begin_right(surface, mesh, samples, arena);
     case Phase::right:
@@ -273,7 +275,10 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
       phase_ = Phase::begin_relax;
       return unfold(surface, mesh, samples, arena);
     case Phase::relax:
-      relax(surface, mesh.mesh, samples, arena);
+      relax(samples);
+      return {};
+    case Phase::judge:
+      judge(surface, mesh.mesh, samples, arena);
       return {};
     case Phase::level_end:
       phase_ = Phase::begin_split;
@@ -285,6 +290,7 @@ Status Levels::step(Surface& surface, Triangulation& mesh, Samples& samples, Are
       split_.step(arena);
       if (!split_.done()) return {};
       ++level_;
+      iteration_ = 0;
       phase_ = Phase::lines;
       return {};
     case Phase::done:

@@ -71,6 +71,7 @@ class Levels {
     right,
     begin_relax,
     relax,
+    judge,
     unfold,
     level_end,
     begin_split,
@@ -87,7 +88,8 @@ class Levels {
   bool unfolds() const;
   bool is_folded(const Surface& surface, const Halfedges& mesh, const Samples& samples) const;
   Status unfold(const Surface& surface, Triangulation& mesh, Samples& samples, Arena& arena) const;
-  void relax(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena);
+  void relax(const Samples& samples);
+  void judge(const Surface& surface, const Halfedges& mesh, const Samples& samples, Arena& arena);
   bool is_finest() const { return level_ == plan_.splits; }
   std::uint32_t iterations(std::uint32_t level) const;
   std::uint32_t iterations_for_lines(const Samples& samples) const;

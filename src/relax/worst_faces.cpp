@@ -11,7 +11,7 @@ namespace {
 
 constexpr double thirty_degrees = 0.5773502691896258;  // the score of a face with that least angle
 constexpr std::uint32_t polish_rounds = 12;
-constexpr std::uint32_t visits_a_piece = 4;
+constexpr std::uint32_t visits_a_piece = 2;
 /// Passes of resettling, the worst faces first: shares of the wanted score; what is better is left where it is.
 constexpr double resettle_shares[] = {0.5, 0.8, 0.94, 0.94};
 constexpr std::uint32_t resettle_passes = sizeof resettle_shares / sizeof resettle_shares[0];

@@ -23,24 +23,20 @@ Scaled scaled_of(std::uint64_t magnitude) {
   return {exponent, (fraction | implicit_bit) << guard_bits};
 }
 
-std::uint64_t shift_right(std::uint64_t x, std::int32_t by) {
+inline std::uint64_t shift_right(std::uint64_t x, std::int32_t by) {
   if (by == 0) return x;
   if (by > 63) return x != 0;
   return x >> by | ((x << (64 - by)) != 0);
 }
 
 /// The leading bit where it belongs, or as near as a denormal's exponent lets it.
-void normalise(Scaled& p) {
-  for (; p.significand >= 2 * leading_bit; ++p.exponent) p.significand = shift_right(p.significand, 1);
-  for (std::int32_t by = 32; by > 0 && p.significand < leading_bit; by /= 2) {
-    if (p.significand >> (guard_bits + 53 - by) != 0 || p.exponent <= by) continue;
-    p.significand <<= by;
-    p.exponent -= by;
-  }
+inline void normalise(Scaled& p) {
+  for (; p.significand >= 2 * leading_bit; ++p.exponent) p.significand = p.significand >> 1 | (p.significand & 1);
+  for (; p.significand < leading_bit && p.exponent > 1; --p.exponent) p.significand <<= 1;
 }
 
 /// To the nearest double, ties to even.
-std::uint64_t round_to_double(std::uint64_t sign, Scaled p) {
+inline std::uint64_t round_to_double(std::uint64_t sign, Scaled p) {
   normalise(p);
   const std::uint64_t guard = p.significand & 7, kept = p.significand >> guard_bits;
   const std::uint64_t up = guard > 4 || (guard == 4 && (kept & 1) != 0);

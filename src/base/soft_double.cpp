@@ -31,7 +31,7 @@ inline std::uint64_t shift_right(std::uint64_t x, std::int32_t by) {
 
 /// The leading bit where it belongs, or as near as a denormal's exponent lets it.
 inline void normalise(Scaled& p) {
-  for (; p.significand >= 2 * leading_bit; ++p.exponent) p.significand = p.significand >> 1 | (p.significand & 1);
+  for (; p.significand >= 2 * leading_bit; ++p.exponent) p.significand = shift_right(p.significand, 1);
   for (; p.significand < leading_bit && p.exponent > 1; --p.exponent) p.significand <<= 1;
 }
 

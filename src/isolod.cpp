@@ -77,6 +77,7 @@
 #include "plane/lloyd.cpp"
 #include "plane/locate.cpp"
 #include "plane/lscm.cpp"
+#include "plane/relax_chart.cpp"
 #include "plane/sparse_cholesky.cpp"
 #include "plane/untangle.cpp"
 #include "plane/voronoi_cell.cpp"

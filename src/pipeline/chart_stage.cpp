@@ -2,7 +2,6 @@
 
 #include "base/blocks.h"
 #include "pipeline/memory_plan.h"
-#include "plane/lloyd.h"
 
 namespace isolod {
 inline namespace v1 {
@@ -22,46 +21,78 @@ std::size_t result_face_count(const State& s) {
   return faces > 0 ? static_cast<std::size_t>(faces) : 0;
 }
 
-/// Tells the caller of every iteration who asked for it; else nothing is measured.
-void relax_sites(State& s, std::uint32_t chart, Lloyd& lloyd) {
-  lloyd.untangle();
-  for (std::uint32_t i = 0; i < s.options.lloyd_iterations; ++i) {
-    LloydReport report;
-    report.chart = chart;
-    report.iteration = i;
-    lloyd.iterate(s.hooks.lloyd == nullptr ? nullptr : &report);
-    if (s.hooks.lloyd == nullptr) continue;
-    const CallbackScope scope(s.environment);
-    s.hooks.lloyd(s.hooks.context, report);
-  }
+void begin_chart(State& s, std::size_t chart, RelaxChart& work) {
+  const LloydOptions options{s.options.weight, s.options.centroids, 1};
+  work.begin(s.sampled(), s.maps, chart, options, s.options.lloyd_iterations, s.places);
 }
 
-/// What a chart comes to. The triangulation is scratch.
+/// What a chart comes to on a thread of its own. The triangulation is scratch.
 struct RelaxedChart {
   ChartSites sites;
   std::uint64_t units = 0;
 };
 
 Status relax_chart(State& s, std::size_t chart, RelaxedChart& out, Arena& arena) {
-  FlatChart flat;
-  Lloyd lloyd;
-  ChartSites& sites = out.sites;
-  ISOLOD_TRY(build_flat_chart(s.surface, s.atlas, s.maps, chart, flat, arena));
-  ISOLOD_TRY(triangulate_sites(s.sampled(), flat, chart, sites, arena));
-  const std::uint32_t first_movable = s.numbers.node_count + s.numbers.line_count;
-  ISOLOD_TRY(lloyd.begin(s.surface, flat, sites, first_movable, {s.options.weight, s.options.centroids, 1}, arena));
-  relax_sites(s, static_cast<std::uint32_t>(chart), lloyd);
-  for (VertexId v : Ids<VertexId>(sites.sample.count)) {
-    if (sites.sample[v].value >= first_movable) s.places[sites.sample[v].value - first_movable] = lloyd.lift(v);
+  RelaxChart work;
+  begin_chart(s, chart, work);
+  while (!work.done()) {
+    std::uint64_t units = 0;
+    ISOLOD_TRY(work.step(nullptr, units, arena));
+    out.units += units;
   }
-  out.units = flat.chart.faces.count * 10 + sites.sample.count * (10 + 4 * std::uint64_t{s.options.lloyd_iterations});
+  out.sites = work.sites();
   return {};
 }
 
-/// Who wants to see every iteration gets charts in their order.
+/// Tells the caller of every iteration who asked for it; else nothing is measured.
+Status step_chart(State& s, std::uint64_t& units) {
+  RelaxChart& work = s.relax_chart;
+  if (s.hooks.lloyd == nullptr) return work.step(nullptr, units, *s.arena);
+  LloydReport report;
+  report.chart = s.piece;
+  report.iteration = work.iteration();
+  ISOLOD_TRY(work.step(&report, units, *s.arena));
+  if (work.iteration() == report.iteration) return {};
+  const CallbackScope scope(s.environment);
+  s.hooks.lloyd(s.hooks.context, report);
+  return {};
+}
+
+/// A piece of the next chart.
+Status relax_next(State& s, std::uint64_t& units) {
+  if (s.relax_chart.done()) {
+    s.before_chart = s.arena->mark();
+    begin_chart(s, s.piece, s.relax_chart);
+  }
+  ISOLOD_TRY(step_chart(s, units));
+  if (!s.relax_chart.done()) return {};
+  ISOLOD_TRY(s.stitch.add(s.relax_chart.sites()));
+  s.arena->rewind_scratch(s.before_chart);
+  ++s.piece;
+  return {};
+}
+
+/// The next charts, each on a thread.
+Status relax_side_by_side(State& s, const Parallel& parallel, std::size_t count, std::uint64_t& units) {
+  const ScratchScope scope(*s.arena);
+  RelaxedChart charts[most_blocks];
+  ISOLOD_TRY(run_in_blocks(parallel, count, s.sizes.chart_bytes, *s.arena, [&](std::uint32_t i, Arena& block) {
+    return relax_chart(s, s.piece + i, charts[i], block);
+  }));
+  units = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    ISOLOD_TRY(s.stitch.add(charts[i].sites));
+    units += charts[i].units;
+  }
+  s.piece += static_cast<std::uint32_t>(count);
+  return {};
+}
+
+/// Who wants to see every iteration gets charts in their order. One that has begun is done alone.
 std::size_t charts_at_once(const State& s, const Parallel& parallel) {
+  if (s.hooks.lloyd != nullptr || !s.relax_chart.done()) return 1;
   const std::size_t left = s.atlas.chart_count() - s.piece;
-  return s.hooks.lloyd != nullptr ? 1 : blocks_at_once(parallel, left, s.sizes.chart_bytes, 0, *s.arena);
+  return blocks_at_once(parallel, left, s.sizes.chart_bytes, 0, *s.arena);
 }
 
 }  // namespace
@@ -71,19 +102,9 @@ Status step_charts(State& s, bool& done, std::uint64_t& units) {
     ISOLOD_TRY(measure_run(s, s.sizes, *s.arena));
     ISOLOD_TRY(s.stitch.begin(result_face_count(s), s.plan.first_count, *s.arena));
   }
-  const ScratchScope scope(*s.arena);
   const Parallel parallel = parallel_of(s);
-  RelaxedChart room[most_blocks];
-  const Span<RelaxedChart> charts(room, charts_at_once(s, parallel));
-  ISOLOD_TRY(run_in_blocks(parallel, charts.count, s.sizes.chart_bytes, *s.arena, [&](std::uint32_t i, Arena& block) {
-    return relax_chart(s, s.piece + i, charts[i], block);
-  }));
-  units = 0;
-  for (const RelaxedChart& chart : charts) {
-    ISOLOD_TRY(s.stitch.add(chart.sites));
-    units += chart.units;
-  }
-  s.piece += static_cast<std::uint32_t>(charts.count);
+  const std::size_t count = charts_at_once(s, parallel);
+  ISOLOD_TRY(count == 1 ? relax_next(s, units) : relax_side_by_side(s, parallel, count, units));
   s.stage_share = static_cast<double>(s.piece) / static_cast<double>(s.atlas.chart_count());
   done = s.piece == s.atlas.chart_count();
   return {};

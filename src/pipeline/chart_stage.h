@@ -1,5 +1,4 @@
-// The charts of the first mesh: each laid flat, its samples triangulated and relaxed there, and lifted (paper, sections
-// 4.4 and 5).
+// The charts of the first mesh, relaxed one by one or side by side, and stitched in their order.
 #pragma once
 
 #include "pipeline/state.h"
@@ -7,7 +6,7 @@
 namespace isolod {
 inline namespace v1 {
 
-/// A chart; with threads as many as find room side by side in what is free, 8 at most.
+/// A piece of a chart; with threads as many charts as find room side by side in what is free, 8 at most.
 Status step_charts(Remesher::State& state, bool& done, std::uint64_t& units);
 
 }  // namespace v1

@@ -7,7 +7,7 @@
 #include "pipeline/charting.h"
 #include "pipeline/lods.h"
 #include "pipeline/run_sizes.h"
-#include "plane/lloyd.h"
+#include "plane/relax_chart.h"
 #include "result/stitch.h"
 #include "sample/calibrate.h"
 #include "sample/diffuse.h"
@@ -58,6 +58,8 @@ struct Remesher::State {
   ArenaMark before_diffuse;
   RunSizes sizes;  ///< once the charts have begun; before, its surface_bytes are 0
   SampleNumbers numbers;
+  RelaxChart relax_chart;
+  ArenaMark before_chart;
   Stitch stitch;
   Samples samples;
   LevelPlan plan;

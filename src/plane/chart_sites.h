@@ -7,6 +7,7 @@
 #pragma once
 
 #include "atlas/chart.h"
+#include "base/sweep.h"
 #include "plane/delaunay.h"
 #include "plane/flatten.h"
 #include "sample/line_samples.h"
@@ -67,16 +68,60 @@ struct ChartSites {
   std::uint32_t stuck = 0;  ///< original vertices that could not be taken out
 };
 
-/// The scratch of `build_flat_chart` and `triangulate_sites` for a chart of so many faces and samples, those on its
-/// border included.
+/// The scratch of `build_flat_chart` and `GrowSites` for a chart of so many faces and samples, those on its border
+/// included.
 std::size_t chart_sites_bytes(std::size_t face_count, std::size_t vertex_count, std::size_t sample_count);
 
 /// Builds the local chart and its map. Scratch stays with the caller's scope.
 Status build_flat_chart(const Surface& surface, const Atlas& atlas, const ChartMaps& maps, std::size_t chart,
                         FlatChart& flat, Arena& arena);
 
-/// Fills `sites`. Scratch of about 150 bytes a local face and 100 a sample stays with the caller's scope. O(n) time in
-/// practice.
+/// A stage: begin, step until done, finish. Grows the triangulation of one chart's samples. O(n) time in practice.
+class GrowSites {
+ public:
+  /// Puts the samples in. Scratch of about 150 bytes a local face and 100 a sample stays with the caller's scope, and
+  /// `flat` and `sites` must outlive the stage.
+  Status begin(const SampledSurface& samples, const FlatChart& flat, std::size_t chart, ChartSites& sites,
+               Arena& arena);
+  /// Tries to take out the next `originals_a_step` original vertices.
+  void step();
+  bool done() const { return done_; }
+  /// no_convergence, with how many, where original vertices could not be taken out.
+  Status finish(Arena& arena);
+
+  static constexpr std::size_t originals_a_step = 512;
+
+ private:
+  /// The line samples on an edge of the skeleton are contiguous: [first, last) in LineSamples::place.
+  struct Range {
+    std::uint32_t first, last;
+  };
+  std::uint32_t line_place(HalfedgeId local) const;
+  Range samples_on(std::uint32_t edge) const;
+  std::size_t count_line_samples() const;
+  void copy_chart();
+  VertexId add_vertex(Vec2 p, SampleId sample, FaceId home);
+  void put_on_edge(HalfedgeId h);
+  void put_line_samples();
+  void put_in_face(FaceId local, const SurfacePlace& place, SampleId sample);
+  Vec2 strictly_inside(FaceId f, Vec2 p) const;
+  void put_surface_samples();
+  bool is_on_line(VertexId v) const;
+  void try_to_take_out(VertexId v);
+
+  SampledSurface samples_{};
+  const FlatChart* flat_ = nullptr;
+  ChartSites* sites_ = nullptr;
+  PlaneTriangulation* plane_ = nullptr;  // of the sites
+  EdgeStack stack_;
+  std::uint32_t first_place_ = 0, last_place_ = 0, vertex_count_ = 0;
+  Sweep sweep_;
+  bool on_lines_ = false;   // which original vertices this pass tries
+  std::uint32_t stay_ = 0;  // of this round, which is a pass over either kind
+  bool done_ = false;
+};
+
+/// The whole stage at once.
 Status triangulate_sites(const SampledSurface& samples, const FlatChart& flat, std::size_t chart, ChartSites& sites,
                          Arena& arena);
 

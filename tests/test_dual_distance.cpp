@@ -47,7 +47,9 @@ TEST_CASE("dual distance: ways are those of a naive search, lines dear or barred
     REQUIRE(distances.begin(piece.surface, 2.5, lines, piece.block.arena).is_ok());
     while (!distances.fill_costs()) {
     }
-    distances.spread({7}, 1, {});
+    distances.plant({7}, 1, {});
+    while (!distances.grow_on()) {
+    }
     const std::vector<double> wanted = naive_distances(piece.surface, {7}, 2.5, lines == Lines::barriers);
     std::size_t unreached = 0;
     for (FaceId f : Ids<FaceId>(faces)) {

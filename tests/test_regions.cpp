@@ -47,7 +47,8 @@ TEST_CASE("regions: each is split in two connected parts, again and again, down 
         continue;
       }
       const std::size_t first = static_cast<std::size_t>(listed[0].data - order.data());
-      REQUIRE(regions.split(arena).is_ok());
+      regions.split();
+      while (!regions.ready()) REQUIRE(regions.step(arena).is_ok());
       CHECK(arena.used() == used);
       const std::size_t end = first + region.size();
       const std::size_t half = end_of_region({order.data(), faces}, {label.data(), faces}, first);

@@ -94,12 +94,6 @@ bool DualDistance::grow_on() {
   return heap_.empty();
 }
 
-void DualDistance::spread(FaceId seed, std::uint32_t label, Span<const std::uint32_t> region) {
-  plant(seed, label, region);
-  while (!grow_on()) {
-  }
-}
-
 void DualDistance::grow(Span<const FaceId> core, double limit, Span<FaceId>& reached) {
   std::size_t count = 0;
   for (FaceId f : core) {

@@ -38,10 +38,9 @@ class DualDistance {
 
   /// Lets `label` spread from `seed` wherever it is nearer than what came before, within the faces whose entry in
   /// `region` equals that of the seed (an empty span: everywhere): after `plant`, call `grow_on` until it is true.
+  /// O(faces reached * log).
   void plant(FaceId seed, std::uint32_t label, Span<const std::uint32_t> region);
   bool grow_on();
-  /// Both at once. O(faces reached * log).
-  void spread(FaceId seed, std::uint32_t label, Span<const std::uint32_t> region);
 
   /// All faces within `limit` of a face of `core`, the core first, into `reached`, which has room for every face. What
   /// was known of distances is forgotten. O(faces reached * log).

@@ -17,20 +17,20 @@ Status Regions::begin(const Surface& surface, const PartitionOptions& options, S
                       Span<FaceId> order, Arena& arena) {
   label_ = label;
   order_ = order;
-  ready_ = false;
+  phase_ = Phase::part;
   position_ = taken_ = 0;
   ISOLOD_TRY(distances_.begin(surface, options.line_rate, options.lines, arena));
   mark_ = arena.mark();
   return partition_.begin(surface, options, distances_, label, arena);
 }
 
-Status Regions::step(Arena& arena) {
+Status Regions::part(Arena& arena) {
   if (!partition_.done()) return partition_.step(arena);
   arena.rewind_scratch(mark_);
   next_label_ = partition_.region_count();
   ISOLOD_TRY(order_by_region(label_, next_label_, order_, arena));
   distances_.close(arena);
-  ready_ = true;
+  phase_ = Phase::ready;
   return {};
 }
 
@@ -68,43 +68,70 @@ void Regions::take() {
   go_on_from(position_ + faces.count);
 }
 
-/// Two faces of a region that lie far apart: the farthest from its first, and the farthest from that.
-void Regions::find_far_faces(Span<const FaceId> faces, FaceId (&ends)[2]) {
-  const std::uint32_t label = label_[faces[0u]];
-  ends[0] = faces[0u];
-  for (std::uint32_t round = 0; round < 2; ++round) {
-    distances_.clear(faces);
-    distances_.spread(ends[0], label, label_);
-    ends[1] = ends[0];
-    for (FaceId f : faces) {
-      if (distances_.distance(f) > distances_.distance(ends[1])) ends[1] = f;
-    }
-    if (round == 0) ends[0] = ends[1];
-  }
+Status Regions::open(Arena& arena) {
+  mark_ = arena.mark();
+  ISOLOD_TRY(distances_.open(arena));
+  plant(front()[0u]);
+  return {};
 }
 
-Status Regions::split(Arena& arena) {
-  const ScratchScope scope(arena);
+/// Nothing is known of distances but those from there.
+void Regions::plant(FaceId seed) {
+  distances_.clear(front());
+  distances_.plant(seed, label_[seed], label_);
+}
+
+FaceId Regions::farthest_from(FaceId seed) const {
+  FaceId farthest = seed;
+  for (FaceId f : front()) {
+    if (distances_.distance(f) > distances_.distance(farthest)) farthest = f;
+  }
+  return farthest;
+}
+
+/// Each face to the end that it is nearer to.
+Status Regions::share_out(Arena& arena) {
   Span<FaceId> faces = order_.slice(position_, front().count), moved;
   ISOLOD_TRY(arena.scratch(faces.count, moved));
-  ISOLOD_TRY(distances_.open(arena));
-  const std::uint32_t old_label = label_[faces[0u]];
-  FaceId ends[2];
-  find_far_faces(faces, ends);
-  distances_.clear(faces);
-  distances_.spread(ends[0], old_label, label_);
-  distances_.spread(ends[1], next_label_++, label_);
   std::size_t kept = 0, gone = 0;
   for (FaceId f : faces) {
     label_[f] = distances_.label(f);
-    if (label_[f] == old_label) {
-      faces[kept++] = f;
-    } else {
+    if (label_[f] == next_label_) {
       moved[gone++] = f;
+    } else {
+      faces[kept++] = f;
     }
   }
   for (std::size_t i = 0; i < gone; ++i) faces[kept + i] = moved[i];
+  ++next_label_;
   go_on_from(position_ + faces.count);
+  arena.rewind_scratch(mark_);
+  return {};
+}
+
+/// A split: the face farthest from the first, then the one farthest from that, are the ends that share the faces.
+Status Regions::step(Arena& arena) {
+  if (phase_ == Phase::part) return part(arena);
+  if (phase_ == Phase::open) {
+    phase_ = Phase::find_one_end;
+    return open(arena);
+  }
+  if (phase_ == Phase::ready || !distances_.grow_on()) return {};
+  if (phase_ == Phase::find_one_end) {
+    one_end_ = farthest_from(front()[0u]);
+    plant(one_end_);
+    phase_ = Phase::find_other_end;
+  } else if (phase_ == Phase::find_other_end) {
+    other_end_ = farthest_from(one_end_);
+    plant(one_end_);
+    phase_ = Phase::spread_one;
+  } else if (phase_ == Phase::spread_one) {
+    distances_.plant(other_end_, next_label_, label_);
+    phase_ = Phase::spread_other;
+  } else {
+    phase_ = Phase::ready;
+    return share_out(arena);
+  }
   return {};
 }
 

@@ -15,12 +15,12 @@ class Regions {
   /// stay once `ready()`.
   Status begin(const Surface& surface, const PartitionOptions& options, Span<std::uint32_t> label, Span<FaceId> order,
                Arena& arena);
-  /// A piece of the partition, until `ready()`. Scratch of its own is given back at the end.
+  /// A piece of the partition, or of a split, until `ready()`. Scratch of its own is given back at the end.
   Status step(Arena& arena);
-  bool ready() const { return ready_; }
+  bool ready() const { return phase_ == Phase::ready; }
 
   /// Whether every region has been taken.
-  bool empty() const { return ready_ && taken_ == order_.count; }
+  bool empty() const { return ready() && taken_ == order_.count; }
   double share_taken() const { return static_cast<double>(taken_) / static_cast<double>(order_.count); }
   /// The faces of the region that is next. Only once `ready()`, as all below.
   Span<const FaceId> front() const { return region_at(position_); }
@@ -28,14 +28,20 @@ class Regions {
   std::size_t next(Span<Span<const FaceId>> regions) const;
   /// Takes the region that is next. Its label changes.
   void take();
-  /// Splits the region that is next in two connected parts, both for the next pass. 20 bytes a face and 4 a face of the
-  /// region of scratch, given back.
-  Status split(Arena& arena);
+  /// Begins to split the region that is next in two connected parts, both for the next pass: `step` until `ready()`. 20
+  /// bytes a face and 4 a face of the region of scratch, from the first step on.
+  void split() { phase_ = Phase::open; }
 
   DualDistance& distances() { return distances_; }
 
  private:
-  void find_far_faces(Span<const FaceId> faces, FaceId (&ends)[2]);
+  /// Of the partition, then of each split.
+  enum class Phase : std::uint8_t { part, open, find_one_end, find_other_end, spread_one, spread_other, ready };
+  Status part(Arena& arena);
+  Status open(Arena& arena);
+  void plant(FaceId seed);
+  FaceId farthest_from(FaceId seed) const;
+  Status share_out(Arena& arena);
   bool is_taken(std::size_t first) const;
   std::size_t untaken_from(std::size_t first) const;
   void go_on_from(std::size_t first);
@@ -46,8 +52,9 @@ class Regions {
   DualDistance distances_;
   Partition partition_;
   ArenaMark mark_;
-  bool ready_ = false;
+  Phase phase_ = Phase::part;
   std::uint32_t next_label_ = 0;
+  FaceId one_end_{}, other_end_{};        // of the region that is split
   std::size_t position_ = 0, taken_ = 0;  // in faces
 };
 

@@ -74,7 +74,8 @@ Status MakeAtlas::take_or_split(const Try& attempt, Arena& arena) {
     return {};
   }
   if (faces.count == 1) return fail(Status::no_convergence, Element::triangle, surface_->source_face[faces[0u]]);
-  return regions_.split(arena);
+  regions_.split();
+  return {};
 }
 
 Status MakeAtlas::step(Arena& arena) {
@@ -92,7 +93,10 @@ Status MakeAtlas::step(Arena& arena) {
   }
   ISOLOD_TRY(run_in_blocks(options_.parallel, tries.count, bytes, arena,
                            [&](std::uint32_t i, Arena& block) { return find_map(tries[i], block); }));
-  for (const Try& attempt : tries) ISOLOD_TRY(take_or_split(attempt, arena));
+  for (const Try& attempt : tries) {
+    while (!regions_.ready()) ISOLOD_TRY(regions_.step(arena));
+    ISOLOD_TRY(take_or_split(attempt, arena));
+  }
   return {};
 }
 

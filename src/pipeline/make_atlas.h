@@ -23,8 +23,8 @@ struct AtlasOptions {
 class MakeAtlas {
  public:
   Status begin(const Surface& surface, const AtlasOptions& options, Arena& arena);
-  /// A piece of the partition, then a try at one chart; with threads at as many as find room in what is free, 8 at
-  /// most.
+  /// A piece of the partition or of a split, or a try at one chart; with threads at as many as find room in what is
+  /// free, 8 at most.
   Status step(Arena& arena);
   bool done() const { return regions_.empty(); }
   double share_done() const { return regions_.share_taken(); }

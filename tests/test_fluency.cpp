@@ -83,7 +83,7 @@ TEST_CASE("fluency: a face keeps the nearest whole number that is not negative; 
 }
 
 TEST_CASE("fluency: a debt is paid as far as there is something") {
-  std::int64_t debt = 5;
+  std::int32_t debt = 5;
   std::uint32_t count = 3;
   pay_debt(debt, count);
   CHECK(debt == 2);

@@ -22,7 +22,7 @@ double count_at(const DensityIntegrals& integrals, double line_rate) {
          static_cast<double>(integrals.euler_characteristic);
 }
 
-DensityIntegrals closed(std::int64_t chi, double lines = 0, std::uint32_t corners = 0) {
+DensityIntegrals closed(std::int32_t chi, double lines = 0, std::uint32_t corners = 0) {
   DensityIntegrals integrals;
   integrals.surface = 12.5;
   integrals.lines = lines;
@@ -40,7 +40,8 @@ std::string fault_of(const DensityIntegrals& integrals, std::uint32_t v, std::ui
   for (std::uint32_t level = 0; level < plan.splits; ++level) {
     if (plan.count[level] < least) return "a level of too few samples";
     const bool grows = plan.count[level] < plan.count[level + 1];  // 4 V - 3 chi are more than V, if V is over chi
-    if (plan.count[level] > integrals.euler_characteristic && !grows) return "a level that does not grow";
+    if (static_cast<std::int64_t>(plan.count[level]) > integrals.euler_characteristic && !grows)
+      return "a level that does not grow";
   }
   double rate = solve_rates(integrals, v, Calibration::corrected).line;
   for (std::uint32_t level = 0; level < plan.splits; ++level) rate *= 0.5;

@@ -17,7 +17,7 @@ struct Span {
   T* data = nullptr;
   std::size_t count = 0;
 
-  constexpr Span() = default;
+  ISOLOD_INLINE constexpr Span() = default;
   constexpr Span(T* pointer, std::size_t number) : data(pointer), count(number) {}
 
   template <class I>
@@ -59,13 +59,19 @@ class Arena {
   /// Room for `count` results of type T.
   template <class T>
   Status result(std::size_t count, Span<T>& out) {
-    return carve<T>(count, out, true);
+    Piece piece{nullptr, count};
+    Status status = take_result(sizeof(T), piece);
+    out = piece.as<T>();
+    return status;
   }
 
   /// Room for `count` elements of scratch of type T, gone at the next rewind of the back.
   template <class T>
   Status scratch(std::size_t count, Span<T>& out) {
-    return carve<T>(count, out, false);
+    Piece piece{nullptr, count};
+    Status status = take_scratch(sizeof(T), piece);
+    out = piece.as<T>();
+    return status;
   }
 
   ArenaMark mark() const { return {front_, back_}; }
@@ -90,17 +96,24 @@ class Arena {
   void reset_high_water() { high_water_ = used(); }
 
  private:
-  template <class T>
-  Status carve(std::size_t count, Span<T>& out, bool at_front) {
-    static_assert(std::is_trivially_destructible_v<T>, "the arena never runs destructors");
-    static_assert(alignof(T) <= 16, "the arena aligns to 16 bytes");
-    void* piece = nullptr;
-    const Status status = take(count, sizeof(T), at_front, piece);
-    out = status.is_ok() ? Span<T>(static_cast<T*>(piece), count) : Span<T>();
-    return status;
-  }
+  /// Elements of any type; none where they do not fit.
+  struct Piece {
+    void* data;
+    std::size_t count;
+
+    template <class T>
+    Span<T> as() const {
+      static_assert(std::is_trivially_destructible_v<T>, "the arena never runs destructors");
+      static_assert(alignof(T) <= 16, "the arena aligns to 16 bytes");
+      return {static_cast<T*>(data), count};
+    }
+  };
+
+  Status admit(std::size_t size, Piece& piece, std::size_t& bytes) const;
+  void hand_out(Piece& piece, std::size_t offset, std::size_t bytes);
+  ISOLOD_API Status take_result(std::size_t size, Piece& piece);
+  ISOLOD_API Status take_scratch(std::size_t size, Piece& piece);
   ISOLOD_API void* move_bytes(const void* from, std::size_t bytes, std::size_t room, ArenaMark& to);
-  ISOLOD_API Status take(std::size_t count, std::size_t size, bool at_front, void*& piece);
 
   unsigned char* block_ = nullptr;
   std::size_t capacity_ = 0;

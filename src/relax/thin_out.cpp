@@ -137,7 +137,8 @@ void ThinOut::remove(HalfedgeId h) {
 void ThinOut::unlock() {
   Triangulation& mesh = *mesh_;
   random_ = random_ * 6364136223846793005U + 1442695040888963407U;  // Knuth's MMIX
-  const HalfedgeId h{static_cast<std::uint32_t>((random_ >> 33) % mesh.mesh.halfedge_count())};
+  const std::uint32_t halfedges = static_cast<std::uint32_t>(mesh.mesh.halfedge_count());
+  const HalfedgeId h{static_cast<std::uint32_t>(random_ >> 33) % halfedges};
   ++tries_;
   if (mesh.is_dead(face(h)) || !can_flip(mesh, h)) return;
   const HalfedgeId g = mesh.mesh.twin[h];

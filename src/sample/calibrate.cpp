@@ -6,7 +6,7 @@ inline namespace v1 {
 void IntegrateDensity::add_edge(const Surface& surface, HalfedgeId h) {
   const HalfedgeId t = surface.mesh.twin[h];
   if (!t.is_none() && t < h) return;
-  --sum_.euler_characteristic;
+  if (t.is_none()) ++boundary_edges_;
   if (surface.line[h] == line_none) return;
   const double d = edge_density(surface, h);
   sum_.lines += d;
@@ -18,12 +18,14 @@ void IntegrateDensity::step(const Surface& surface) {
   switch (phase_) {
     case Phase::faces:
       if (sweep_.over<FaceId>(mesh.face_count(), [&](FaceId f) { sum_.surface += face_density(surface, f); })) {
-        sum_.euler_characteristic = static_cast<std::int64_t>(mesh.vertex_count() + mesh.face_count());
         phase_ = Phase::edges;
       }
       return;
     case Phase::edges:
       if (sweep_.over<HalfedgeId>(mesh.halfedge_count(), [&](HalfedgeId h) { add_edge(surface, h); })) {
+        // V - E + F, where 2 E = 3 F + B.
+        sum_.euler_characteristic = static_cast<std::int32_t>(mesh.vertex_count()) -
+                                    static_cast<std::int32_t>((mesh.face_count() + boundary_edges_) / 2);
         phase_ = Phase::corners;
       }
       return;

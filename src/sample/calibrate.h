@@ -19,7 +19,7 @@ struct DensityIntegrals {
   double boundary = 0;  ///< of d_f over boundary edges
   double lines = 0;     ///< of d_f over all line edges, seams included
   std::uint32_t corner_count = 0;
-  std::int64_t euler_characteristic = 0;
+  std::int32_t euler_characteristic = 0;
 };
 
 struct Rates {
@@ -40,6 +40,7 @@ class IntegrateDensity {
   void add_edge(const Surface& surface, HalfedgeId h);
 
   DensityIntegrals sum_;
+  std::uint32_t boundary_edges_ = 0;
   Phase phase_ = Phase::faces;
   Sweep sweep_;
 };

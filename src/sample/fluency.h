@@ -36,7 +36,7 @@ struct ErrorFlow {
   FixedCount keep_whole(FixedCount wished, FixedCount received, std::uint32_t& count) {
     largest_received = greater_of(largest_received, received);
     const FixedCount have = wished + received;
-    const std::int64_t nearest = round_count(have);
+    const std::int32_t nearest = round_count(have);
     count = nearest > 0 ? static_cast<std::uint32_t>(nearest) : 0;
     const FixedCount rest = have - FixedCount{count} * one_sample;
     largest_passed = greater_of(largest_passed, rest);
@@ -60,10 +60,10 @@ struct ErrorFlow {
 
 /// What the very last face is left with is zero, or a whole debt where it wished for less than it was handed of one.
 /// This lets a face pay what it can of it.
-inline void pay_debt(std::int64_t& debt, std::uint32_t& count) {
-  const std::int64_t paid = count < debt ? count : debt;
-  count -= static_cast<std::uint32_t>(paid);
-  debt -= paid;
+inline void pay_debt(std::int32_t& debt, std::uint32_t& count) {
+  const std::uint32_t owed = static_cast<std::uint32_t>(debt), paid = count < owed ? count : owed;
+  count -= paid;
+  debt -= static_cast<std::int32_t>(paid);
 }
 
 /// Error over a spanning tree of the dual graph. The tree is grown depth first, so that it is mostly one long way with
@@ -104,7 +104,7 @@ class TreeFluency {
   std::size_t height_ = 0, visited_ = 0;
   FaceId next_root_{0};
   FixedCount teleported_ = 0;
-  std::int64_t debt_ = 0;
+  std::int32_t debt_ = 0;
 };
 
 }  // namespace v1

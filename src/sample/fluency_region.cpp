@@ -130,7 +130,7 @@ Status RegionFluency::pass_on(FaceId f, FixedCount rest) {
   }
   FixedCount left = rest;
   for (std::uint32_t i = 0; i + 1 < count; ++i) {
-    const FixedCount share = edges > 0 ? static_cast<FixedCount>(static_cast<double>(rest) * (edge[i] / edges)) : 0;
+    const FixedCount share = edges > 0 ? truncate_to_fixed(to_double(rest) * (edge[i] / edges)) : 0;
     received_[to[i]] += share;
     left -= share;
   }

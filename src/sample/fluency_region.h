@@ -62,7 +62,7 @@ class RegionFluency {
   Queue ears_, front_;
   std::size_t processed_ = 0;
   bool has_boundary_ = false;
-  std::int64_t debt_ = 0;
+  std::int32_t debt_ = 0;
 };
 
 }  // namespace v1

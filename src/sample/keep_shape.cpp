@@ -12,7 +12,7 @@ namespace {
 
 constexpr double least_spacing = 0.6;        // of the backbone's mean, in density
 constexpr double clear_gain = 0.75;          // of the deviation: what the new chords may have at most
-constexpr std::int64_t farthest_fixed = 16;  // samples to either side among which a fixed one is looked for
+constexpr std::int32_t farthest_fixed = 16;  // samples to either side among which a fixed one is looked for
 constexpr double wide_spacing = 1.4;         // of the mean: from here on a segment may be given one interval more
 constexpr std::uint32_t most_keep_rounds = 8;
 
@@ -42,7 +42,7 @@ double squared_distance_to_chord(Vec3 p, Vec3 a, Vec3 b) {
 struct Segment {
   Point from;
   double mass;
-  std::int64_t count;  // of intervals
+  std::int32_t count;  // of intervals
 };
 
 /// A segment that could give or take an interval; the least key comes first.
@@ -88,16 +88,16 @@ class ShapeKeeper {
   }
 
  private:
-  std::int64_t count() const { return static_cast<std::int64_t>(point_.count); }
-  std::int64_t chord_count() const { return track_.closed ? count() : count() - 1; }
+  std::int32_t count() const { return static_cast<std::int32_t>(point_.count); }
+  std::int32_t chord_count() const { return track_.closed ? count() : count() - 1; }
 
   /// Points of a closed track go on beyond both ends.
-  Point at(std::int64_t i) const {
+  Point at(std::int32_t i) const {
     if (i < 0) return {point_[i + count()].mass - track_.whole_mass(), point_[i + count()].vertex};
     if (i >= count()) return {point_[i - count()].mass + track_.whole_mass(), point_[i - count()].vertex};
     return point_[i];
   }
-  bool is_fixed(std::int64_t i) const { return at(i).vertex != UINT32_MAX; }
+  bool is_fixed(std::int32_t i) const { return at(i).vertex != UINT32_MAX; }
 
   Vec3 vertex_position(std::uint32_t k) const {
     const bool is_last = k == track_.edge_count();
@@ -151,7 +151,7 @@ class ShapeKeeper {
   double measure() {
     double excess = 0;
     deviation_.count = 0;
-    for (std::int64_t i = 0; i < chord_count(); ++i) {
+    for (std::int32_t i = 0; i < chord_count(); ++i) {
       Deviation worst = worst_between(at(i), at(i + 1));
       if (!(worst.squared > tolerance_ * tolerance_)) continue;
       const double beyond = square_root(worst.squared) - tolerance_;
@@ -168,7 +168,7 @@ class ShapeKeeper {
     });
     bool any = false;
     for (const Deviation& worst : deviation_) {
-      const std::int64_t left = worst.chord, right = left + 1;
+      const std::int32_t left = worst.chord, right = left + 1;
       const bool left_is_nearer = worst.mass - at(left).mass <= at(right).mass - worst.mass;
       const bool pulled =
           try_pull(left_is_nearer ? left : right, worst) || try_pull(left_is_nearer ? right : left, worst);
@@ -178,22 +178,22 @@ class ShapeKeeper {
   }
 
   /// The spacing on one side of sample s, once it is at `mass` and those up to the next fixed one are spread.
-  double spacing_after(std::int64_t s, double mass, std::int64_t side) const {
-    const std::int64_t most = farthest_fixed < count() ? farthest_fixed : count();
-    std::int64_t steps = 1;
+  double spacing_after(std::int32_t s, double mass, std::int32_t side) const {
+    const std::int32_t most = farthest_fixed < count() ? farthest_fixed : count();
+    std::int32_t steps = 1;
     while (steps < most && !is_fixed(s + side * steps)) ++steps;
     const double way = at(s + side * steps).mass - mass;
     return static_cast<double>(side) * way / static_cast<double>(steps);
   }
 
   /// The point that would be next to the vertex then.
-  Point neighbour_after(std::int64_t s, const Deviation& worst, std::int64_t side, double spacing) const {
+  Point neighbour_after(std::int32_t s, const Deviation& worst, std::int32_t side, double spacing) const {
     const Point present = at(s + side);
     if (present.vertex != UINT32_MAX) return present;
     return {worst.mass + static_cast<double>(side) * spacing, UINT32_MAX};
   }
 
-  bool try_pull(std::int64_t s, Deviation worst) {
+  bool try_pull(std::int32_t s, Deviation worst) {
     if (is_fixed(s)) return false;
     if (s >= count()) {
       s -= count();
@@ -211,11 +211,11 @@ class ShapeKeeper {
 
   /// Lists the segments between fixed points: on a closed track from the first pin on, once around.
   void cut() {
-    std::int64_t from = 0;
+    std::int32_t from = 0;
     while (!is_fixed(from)) ++from;
-    const std::int64_t end = track_.closed ? from + count() : count() - 1;
+    const std::int32_t end = track_.closed ? from + count() : count() - 1;
     segment_.count = 0;
-    for (std::int64_t i = from + 1; i <= end; ++i) {
+    for (std::int32_t i = from + 1; i <= end; ++i) {
       if (!is_fixed(i)) continue;
       segment_[segment_.count++] = {at(from), at(i).mass - at(from).mass, i - from};
       from = i;
@@ -240,7 +240,7 @@ class ShapeKeeper {
     }
   }
 
-  double spacing(std::uint32_t segment, std::int64_t more) const {
+  double spacing(std::uint32_t segment, std::int32_t more) const {
     return segment_[segment].mass / static_cast<double>(segment_[segment].count + more);
   }
 
@@ -252,7 +252,7 @@ class ShapeKeeper {
       const double start = segment.from.mass - shift;
       point_[point_.count++] = {start, segment.from.vertex};
       const double step = segment.mass / static_cast<double>(segment.count);
-      for (std::int64_t i = 1; i < segment.count; ++i) {
+      for (std::int32_t i = 1; i < segment.count; ++i) {
         point_[point_.count++] = {start + static_cast<double>(i) * step, UINT32_MAX};
       }
     }

@@ -137,8 +137,7 @@ class SkeletonDiffusion {
   FixedCount grant(std::uint32_t b, double rate) {
     processed_[b] = 1;
     const FixedCount wish = to_fixed(smaller(rate * wishes_[b].density, 1e9)) + error_[b];
-    const std::int64_t rounded = round_count(wish);
-    const std::int64_t least = wishes_[b].least;
+    const std::int32_t rounded = round_count(wish), least = static_cast<std::int32_t>(wishes_[b].least);
     wishes_[b].granted = static_cast<std::uint32_t>(rounded < least ? least : rounded);
     return wish - FixedCount{wishes_[b].granted} * one_sample;
   }

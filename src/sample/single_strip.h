@@ -126,7 +126,7 @@ class StripFluency {
   Span<std::uint8_t> half_done_;
   bool is_cleared_ = false, is_flowed_ = false;
   FixedCount error_ = 0;
-  std::int64_t debt_ = 0;
+  std::int32_t debt_ = 0;
 };
 
 }  // namespace v1

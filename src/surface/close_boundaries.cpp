@@ -10,7 +10,7 @@ inline namespace v1 {
 
 namespace {
 
-constexpr std::int64_t least_samples = 3;
+constexpr std::int32_t least_samples = 3;
 constexpr double most_cap_area = 2.0 / 3;  // of the component's own
 constexpr std::uint8_t judged_anew = 2;    // in MeshDraft::corner: its rim has changed
 
@@ -63,7 +63,7 @@ void CloseBoundaries::measure(const Surface& surface, Loop& loop) {
   });
   loop.density = length(loop.area) * (mass / whole);
   const FixedCount wished = to_fixed(smaller(options_.line_rate * wish, 1e9)) + error_;
-  const std::int64_t samples = round_count(wished);
+  const std::int32_t samples = round_count(wished);
   error_ = wished - samples * one_sample;
   loop.is_small = samples < least_samples;
 }

@@ -128,7 +128,7 @@ const Case with_lines[] = {{"cube", 1200, 30, 2400},  {"bracket", 2000, 30, 9000
 }  // namespace
 
 TEST_CASE("levels: a plan ends with exactly V, for every V and chi") {
-  for (std::int64_t chi = 2; chi >= -198; chi -= 10) {
+  for (std::int32_t chi = 2; chi >= -198; chi -= 10) {
     for (std::uint32_t least : {1U, 4U, 60U, 2000U}) {
       for (std::uint32_t v = 1; v < 40000; v += 1 + v / 7) {
         for (std::uint32_t most : {0U, 1U, 3U, LevelPlan::most_splits}) {

@@ -23,7 +23,7 @@ struct Tiled : Meshed {
     REQUIRE(tiles.begin(piece.surface, samples, piece.block.arena).is_ok());
   }
   void sweep() {
-    cell.assign(samples.count(), StarCell{{0, 0, 0}, 0, 0, 0});
+    cell.assign(samples.count(), StarCell{{0, 0, 0}, 0, 0});
     const Span<const std::uint8_t> is_bent{bent.data(), bent.size()};
     for (FaceId f : Ids<FaceId>(faces)) tiles.settle(mesh, support::span_of(site), f);
     Sweep pass;
@@ -146,7 +146,7 @@ TEST_CASE("tiles: cells of bent stars get area times density squared, the others
   Tiled tiled(sphere, support::made_soup("sphere", 80));
   for (std::size_t s = 0; s < tiled.bent.size(); s += 2) tiled.bent[s] = 1;
   tiled.sweep();
-  std::vector<StarCell> naive(tiled.bent.size(), StarCell{{0, 0, 0}, 0, 0, 0});
+  std::vector<StarCell> naive(tiled.bent.size(), StarCell{{0, 0, 0}, 0, 0});
   for (FaceId f : Ids<FaceId>(tiled.faces)) {
     const std::size_t owner = tiled.tiles.owner(f).value;
     double density = 0;

@@ -14,8 +14,6 @@ constexpr double most_correction = 1.0;
 constexpr std::uint32_t rings = 6;
 constexpr double whole_turn = 6.283185307179586;
 
-bool is_counted(const StarCell& cell) { return cell.mass > 0 && cell.angle > 0; }
-
 }  // namespace
 
 std::size_t MassLoop::bytes(std::size_t sample_count) { return 2 * array_bytes<double>(sample_count); }
@@ -30,16 +28,16 @@ Status MassLoop::begin(const Triangulation& mesh, const Samples& samples, Arena&
 }
 
 /// The mean mass is the unit of all: the logarithm of a bare mass would depend on the scale in its last bits.
-void MassLoop::add_mass(const StarCell& cell) {
-  if (!is_counted(cell)) return;
+void MassLoop::add_mass(SampleId s, const StarCell& cell) {
+  if (!is_counted(s, cell)) return;
   mass_ += cell.mass;
   count_ += 1;
 }
 
 /// Up to the mean, which is taken off at the end.
-double MassLoop::error_of(const StarCell& cell) {
-  if (!is_counted(cell)) return 0;
-  const double error = logarithm(cell.mass / (mass_ / count_) * whole_turn / cell.angle);
+double MassLoop::error_of(SampleId s, const StarCell& cell) {
+  if (!is_counted(s, cell)) return 0;
+  const double error = logarithm(cell.mass / (mass_ / count_) * whole_turn / averaged_[s]);
   sum_ += error;
   return error;
 }
@@ -67,15 +65,15 @@ void MassLoop::step(Span<const StarCell> cell, const Parallel& parallel) {
   const std::size_t count = samples_.count();
   switch (phase_) {
     case Phase::masses:
-      if (sweep_.over<SampleId>(count, [&](SampleId s) { add_mass(cell[s]); })) phase_ = Phase::errors;
+      if (sweep_.over<SampleId>(count, [&](SampleId s) { add_mass(s, cell[s]); })) phase_ = Phase::errors;
       return;
     case Phase::errors:
-      if (!sweep_.over<SampleId>(count, [&](SampleId s) { error_[s] = error_of(cell[s]); })) return;
+      if (!sweep_.over<SampleId>(count, [&](SampleId s) { error_[s] = error_of(s, cell[s]); })) return;
       phase_ = Phase::fill;
       return;
     case Phase::fill: {
       const auto fill = [&](SampleId s) {
-        if (!is_counted(cell[s])) error_[s] = mean();
+        if (!is_counted(s, cell[s])) error_[s] = mean();
       };
       if (sweep_.over<SampleId>(parallel, count, fill)) phase_ = Phase::average;
       return;

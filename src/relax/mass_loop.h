@@ -27,6 +27,8 @@ class MassLoop {
     mass_ = sum_ = count_ = 0;
     round_ = 0;
   }
+  /// The angle around each sample, in radians, is told before the first step.
+  void set_angle(SampleId s, double angle) { averaged_[s] = angle; }
   /// A range of samples.
   void step(Span<const StarCell> cell, const Parallel& parallel);
   bool done() const { return phase_ == Phase::done; }
@@ -34,8 +36,9 @@ class MassLoop {
  private:
   enum class Phase : std::uint8_t { masses, errors, fill, average, correct, done };
   double mean() const { return count_ > 0 ? sum_ / count_ : 0; }
-  void add_mass(const StarCell& cell);
-  double error_of(const StarCell& cell);
+  bool is_counted(SampleId s, const StarCell& cell) const { return cell.mass > 0 && averaged_[s] > 0; }
+  void add_mass(SampleId s, const StarCell& cell);
+  double error_of(SampleId s, const StarCell& cell);
   double average_around(SampleId s) const;
 
   const Triangulation* mesh_ = nullptr;
@@ -44,7 +47,7 @@ class MassLoop {
   Sweep sweep_;
   std::uint32_t round_ = 0;
   double mass_ = 0, sum_ = 0, count_ = 0;
-  Span<double> error_, averaged_;
+  Span<double> error_, averaged_;  ///< before the first average, the angles are where it will be
 };
 
 }  // namespace v1

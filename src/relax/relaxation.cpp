@@ -83,6 +83,7 @@ Vec3 flatten(Vec3 way, Vec3 normal) {
 void Relaxation::find_cell(SampleId s) {
   const StarOfSample star = star_at(*mesh_, site_, vertex(s), closes_loop_);
   cell_[s] = star.cell;
+  if (closes_loop_) loop_.set_angle(s, star.angle);
   is_bent_[s] = !samples_.held[s] && length(star.normal) < least_upright * star.size;
   if (!is_bent_[s]) return;
   cell_[s].moment = {0, 0, 0};

@@ -49,7 +49,7 @@ class Relaxation {
  public:
   /// The scratch of `begin`, for a surface of so many faces and a mesh of so many.
   static std::size_t bytes(std::size_t surface_face_count, std::size_t sample_count, std::size_t face_count);
-  /// `features` are the backbones of the surface without seams, or null where it has none. 134 bytes a sample
+  /// `features` are the backbones of the surface without seams, or null where it has none. 126 bytes a sample
   /// and 4 a face of the surface of scratch stay with the caller's scope.
   Status begin(const Surface& surface, const Backbones* features, Triangulation& mesh, const Samples& samples,
                const RelaxOptions& options, Arena& arena);

@@ -103,12 +103,12 @@ class CornerOfFace {
 }  // namespace
 
 StarOfSample star_at(const Triangulation& mesh, Span<const Site> site, VertexId v, bool angles) {
-  StarOfSample star{{{0, 0, 0}, 0, 0, 0}, {0, 0, 0}, 0};
+  StarOfSample star{{{0, 0, 0}, 0, 0}, 0, {0, 0, 0}, 0};
   visit_outgoing(mesh.mesh, v, [&](HalfedgeId h) {
     const CornerOfFace corner(mesh, site, h);
     if (!(corner.twice_area() > 0)) return;
     corner.add_to(star.cell);
-    if (angles) star.cell.angle += corner.angle();
+    if (angles) star.angle += corner.angle();
     star.normal = star.normal + corner.area_vector();
     star.size += corner.twice_area();
   });

@@ -27,13 +27,13 @@ struct StarCell {
   Vec3 moment;    ///< of the weight about the sample
   double weight;  ///< integral of the weight
   double mass;    ///< integral of d_s
-  double angle;   ///< around the sample, in radians
 };
 
 struct StarOfSample {
   StarCell cell;
-  Vec3 normal;  ///< sum of the area vectors of the faces, each twice its area long
-  double size;  ///< sum of their lengths: that of the normal where the star is flat
+  double angle;  ///< around the sample, in radians
+  Vec3 normal;   ///< sum of the area vectors of the faces, each twice its area long
+  double size;   ///< sum of their lengths: that of the normal where the star is flat
 };
 
 /// The star of v and its cell. Weight and density are linear over each face. With `angles` the angle too, which costs

@@ -23,7 +23,7 @@ class Stitch {
   Status add(const ChartSites& sites);
 
   /// Pairs the sides of seams, mends doubled edges. `lines` are fixed: they are never flipped. Fails with
-  /// invalid_result where a doubled edge cannot be mended. Scratch 16 bytes a halfedge.
+  /// invalid_result where a doubled edge cannot be mended. Scratch 5 bytes a halfedge and 4 a sample.
   Status finish(Arena& arena);
 
   Triangulation& mesh() { return out_; }
@@ -31,7 +31,7 @@ class Stitch {
 
  private:
   Status pair_seams(Arena& arena);
-  Status mend_doubled_edges(Arena& arena);
+  Status mend_doubled_edges(std::size_t& count, Arena& arena);
 
   Triangulation out_;
   std::size_t face_capacity_ = 0;

@@ -82,12 +82,16 @@ std::uint64_t least_budget(const State& s, const DensityIntegrals& integrals) {
   return integrals.corner_count + 3 * std::uint64_t{s.report.boundary_loops} + 4 * std::uint64_t{s.report.components};
 }
 
+std::int64_t handles_of(const State& s, const DensityIntegrals& integrals) {
+  const std::int64_t closed = std::int64_t{integrals.euler_characteristic} + s.report.boundary_loops;
+  return s.report.components - closed / 2;
+}
+
 /// A first mesh that charts can surely hold, whatever the budget: what is too many is thinned out. It does not depend
 /// on the budget, so that neither does the least that thinning comes to; bounded, since memory is planned from counts
 /// alone.
 std::uint32_t ample_count(const State& s, const DensityIntegrals& integrals) {
-  const std::int64_t handles =
-      std::int64_t{s.report.components} - (integrals.euler_characteristic + s.report.boundary_loops) / 2;
+  const std::int64_t handles = handles_of(s, integrals);
   const std::int64_t wanted = 240 + 60 * (s.report.components + handles) + 12 * std::int64_t{s.report.boundary_loops} +
                               4 * std::int64_t{integrals.corner_count};
   const std::int64_t most = static_cast<std::int64_t>(most_first_count(s.view.triangle_count));
@@ -98,8 +102,7 @@ std::uint32_t ample_count(const State& s, const DensityIntegrals& integrals) {
 
 LevelPlan plan_of(const State& s, std::uint32_t most_splits) {
   const DensityIntegrals& integrals = s.integrate.integrals();
-  const std::int64_t handles =
-      std::int64_t{s.report.components} - (integrals.euler_characteristic + s.report.boundary_loops) / 2;
+  const std::int64_t handles = handles_of(s, integrals);
   const std::int64_t least =
       (integrals.lines > 0 ? least_first_with_lines : least_first_count) + 30 * (s.report.components + handles);
   LevelPlan plan = plan_levels(integrals, s.options.vertex_count, most_splits, static_cast<std::uint32_t>(least));

@@ -27,7 +27,7 @@ struct Deviation {
   double squared = 0;
   double mass = 0;
   std::uint32_t vertex = 0;
-  std::uint32_t chord = 0;
+  std::int32_t chord = 0;
 };
 
 double squared_distance_to_chord(Vec3 p, Vec3 a, Vec3 b) {
@@ -156,7 +156,7 @@ class ShapeKeeper {
       if (!(worst.squared > tolerance_ * tolerance_)) continue;
       const double beyond = square_root(worst.squared) - tolerance_;
       excess += beyond * beyond;
-      worst.chord = static_cast<std::uint32_t>(i);
+      worst.chord = i;
       deviation_[deviation_.count++] = worst;
     }
     return excess;

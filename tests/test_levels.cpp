@@ -40,8 +40,7 @@ std::string fault_of(const DensityIntegrals& integrals, std::uint32_t v, std::ui
   for (std::uint32_t level = 0; level < plan.splits; ++level) {
     if (plan.count[level] < least) return "a level of too few samples";
     const bool grows = plan.count[level] < plan.count[level + 1];  // 4 V - 3 chi are more than V, if V is over chi
-    if (static_cast<std::int64_t>(plan.count[level]) > integrals.euler_characteristic && !grows)
-      return "a level that does not grow";
+    if (std::int64_t{plan.count[level]} > integrals.euler_characteristic && !grows) return "a level that does not grow";
   }
   double rate = solve_rates(integrals, v, Calibration::corrected).line;
   for (std::uint32_t level = 0; level < plan.splits; ++level) rate *= 0.5;

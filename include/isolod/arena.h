@@ -59,19 +59,13 @@ class Arena {
   /// Room for `count` results of type T.
   template <class T>
   Status result(std::size_t count, Span<T>& out) {
-    Piece piece{nullptr, count};
-    Status status = take_result(sizeof(T), piece);
-    out = piece.as<T>();
-    return status;
+    return carve<T>(count, true, out);
   }
 
   /// Room for `count` elements of scratch of type T, gone at the next rewind of the back.
   template <class T>
   Status scratch(std::size_t count, Span<T>& out) {
-    Piece piece{nullptr, count};
-    Status status = take_scratch(sizeof(T), piece);
-    out = piece.as<T>();
-    return status;
+    return carve<T>(count, false, out);
   }
 
   ArenaMark mark() const { return {front_, back_}; }
@@ -96,23 +90,24 @@ class Arena {
   void reset_high_water() { high_water_ = used(); }
 
  private:
-  /// Elements of any type; none where they do not fit.
+  /// Elements of any type, so that what finds their place is compiled once.
   struct Piece {
+    std::size_t count, size;
+    bool at_front;
     void* data;
-    std::size_t count;
-
-    template <class T>
-    Span<T> as() const {
-      static_assert(std::is_trivially_destructible_v<T>, "the arena never runs destructors");
-      static_assert(alignof(T) <= 16, "the arena aligns to 16 bytes");
-      return {static_cast<T*>(data), count};
-    }
   };
 
-  Status admit(std::size_t size, Piece& piece, std::size_t& bytes) const;
-  void hand_out(Piece& piece, std::size_t offset, std::size_t bytes);
-  ISOLOD_API Status take_result(std::size_t size, Piece& piece);
-  ISOLOD_API Status take_scratch(std::size_t size, Piece& piece);
+  template <class T>
+  Status carve(std::size_t count, bool at_front, Span<T>& out) {
+    static_assert(std::is_trivially_destructible_v<T>, "the arena never runs destructors");
+    static_assert(alignof(T) <= 16, "the arena aligns to 16 bytes");
+    Piece piece{count, sizeof(T), at_front, nullptr};
+    Status status = take(piece);
+    out = {static_cast<T*>(piece.data), piece.count};
+    return status;
+  }
+  /// Without room the piece is left empty.
+  ISOLOD_API Status take(Piece& piece);
   ISOLOD_API void* move_bytes(const void* from, std::size_t bytes, std::size_t room, ArenaMark& to);
 
   unsigned char* block_ = nullptr;

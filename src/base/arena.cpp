@@ -18,8 +18,8 @@
 #define ISOLOD_POISON(address, bytes) ASAN_POISON_MEMORY_REGION(address, bytes)
 #define ISOLOD_UNPOISON(address, bytes) ASAN_UNPOISON_MEMORY_REGION(address, bytes)
 #else
-#define ISOLOD_POISON(address, bytes) static_cast<void>(bytes)
-#define ISOLOD_UNPOISON(address, bytes) static_cast<void>(bytes)
+#define ISOLOD_POISON(address, bytes) void(0)
+#define ISOLOD_UNPOISON(address, bytes) void(0)
 #endif
 
 namespace isolod {
@@ -36,35 +36,23 @@ Arena::Arena(void* block, std::size_t bytes) {
 
 Arena::~Arena() { ISOLOD_UNPOISON(block_, capacity_); }
 
-/// Finds the bytes that a piece takes, or leaves it empty.
-Status Arena::admit(std::size_t size, Piece& piece, std::size_t& bytes) const {
+Status Arena::take(Piece& piece) {
   constexpr std::size_t most = SIZE_MAX / 2;
-  const bool is_countable = piece.count <= most / size;
-  bytes = is_countable ? aligned(piece.count * size) : 0;
-  if (is_countable && bytes <= free_bytes()) return {};
-  piece.count = 0;
-  return fail(Status::out_of_memory, Element::byte, is_countable ? used() + bytes + arena_alignment : most);
-}
-
-void Arena::hand_out(Piece& piece, std::size_t offset, std::size_t bytes) {
-  piece.data = block_ + offset;
+  const bool is_countable = piece.count <= most / piece.size;
+  const std::size_t bytes = is_countable ? aligned(piece.count * piece.size) : 0;
+  if (!is_countable || bytes > free_bytes()) {
+    piece.count = 0;
+    return fail(Status::out_of_memory, Element::byte, is_countable ? used() + bytes + arena_alignment : most);
+  }
+  if (piece.at_front) {
+    piece.data = block_ + front_;
+    front_ += bytes;
+  } else {
+    back_ += bytes;
+    piece.data = block_ + (capacity_ - back_);
+  }
   ISOLOD_UNPOISON(piece.data, bytes);
   if (used() > high_water_) high_water_ = used();
-}
-
-Status Arena::take_result(std::size_t size, Piece& piece) {
-  std::size_t bytes;
-  ISOLOD_TRY(admit(size, piece, bytes));
-  front_ += bytes;
-  hand_out(piece, front_ - bytes, bytes);
-  return {};
-}
-
-Status Arena::take_scratch(std::size_t size, Piece& piece) {
-  std::size_t bytes;
-  ISOLOD_TRY(admit(size, piece, bytes));
-  back_ += bytes;
-  hand_out(piece, capacity_ - back_, bytes);
   return {};
 }
 

@@ -10,6 +10,7 @@ inline namespace v1 {
 using FixedCount = std::int64_t;
 
 constexpr FixedCount one_sample = FixedCount{1} << 32;
+constexpr double units_a_sample = 4294967296.0;
 
 /// The whole samples in it, rounded down.
 inline std::int32_t floor_count(FixedCount x) {
@@ -22,13 +23,13 @@ inline std::int32_t round_count(FixedCount x) { return floor_count(x + one_sampl
 /// The nearest double. Whole samples and parts of one are converted apart, here and below, because boards have
 /// instructions for 32 bits only: both conversions are exact, and the sum rounds once.
 inline double to_double(FixedCount x) {
-  return floor_count(x) + static_cast<std::uint32_t>(x & (one_sample - 1)) / 4294967296.0;
+  return floor_count(x) + static_cast<std::uint32_t>(x & (one_sample - 1)) / units_a_sample;
 }
 
 /// What is left without the digits below 2^-32; |x| must be below 2^30.
 inline FixedCount truncate_to_fixed(double x) {
   const std::int32_t whole = static_cast<std::int32_t>(x);
-  const double rest = (x - whole) * 4294967296.0;
+  const double rest = (x - whole) * units_a_sample;
   const FixedCount parts = static_cast<std::uint32_t>(rest < 0 ? -rest : rest);
   return whole * one_sample + (rest < 0 ? -parts : parts);
 }
@@ -37,7 +38,7 @@ inline FixedCount truncate_to_fixed(double x) {
 /// round.)
 inline FixedCount to_fixed(double x) {
   const FixedCount whole = truncate_to_fixed(x);
-  const double rest = (x - to_double(whole)) * 4294967296.0;
+  const double rest = (x - to_double(whole)) * units_a_sample;
   return whole + (rest >= 0.5) - (rest <= -0.5);
 }
 
